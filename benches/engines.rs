@@ -5,8 +5,10 @@
 //! triangles is also timed at 1920 × 1080. Scenes with four lights and with a million triangles are
 //! timed with the span engine and the fastest engine.
 
+mod clock;
 mod scenes;
 
+use clock::OwnTime;
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use fastphong::picture::Picture;
 use fastphong::raster::{DrawOptions, Renderer};
@@ -26,7 +28,7 @@ const METHODS: [&str; 5] = [
 /// How many scanlines a band of the floor has.
 const BAND: usize = 32;
 
-fn engines(c: &mut Criterion) {
+fn engines(c: &mut Criterion<OwnTime>) {
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .use_current_thread()
@@ -64,7 +66,7 @@ fn engines(c: &mut Criterion) {
 
 /// Times scenes with four lights and with a million triangles, with the scalar span engine and the
 /// fastest engine.
-fn large(c: &mut Criterion) {
+fn large(c: &mut Criterion<OwnTime>) {
     for &(name, mesh, lights) in scenes::LARGE {
         let prepared = scenes::lit(mesh, lights).prepare().expect("a valid scene");
         let frame = prepared.frame().expect("a valid view");
@@ -89,7 +91,7 @@ fn large(c: &mut Criterion) {
 }
 
 /// Times a 1920 × 1080 frame of few triangles, including projection, next to the floor.
-fn over_floor(c: &mut Criterion) {
+fn over_floor(c: &mut Criterion<OwnTime>) {
     let (name, mesh) = scenes::SCENES[0];
     let mut scene = scenes::scene(mesh);
     (scene.width, scene.height) = (1920, 1080);
@@ -134,7 +136,7 @@ fn floor(depth: &mut [f32], pixels: &mut [[u8; 4]]) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
+    config = clock::criterion(1)
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_millis(600));

@@ -5,8 +5,10 @@
 //! shows if a change made the code faster. `fastphong bench` times such frames in interleaved
 //! rounds: quote its figures, not these.
 
+mod clock;
 mod scenes;
 
+use clock::OwnTime;
 use criterion::{
     BenchmarkId, Criterion, SamplingMode, Throughput, criterion_group, criterion_main,
 };
@@ -17,7 +19,7 @@ use fastphong::shading::{METHODS, Variant};
 use std::hint::black_box;
 use std::time::Duration;
 
-fn frames(c: &mut Criterion) {
+fn frames(c: &mut Criterion<OwnTime>) {
     for (name, mesh) in scenes::SCENES {
         let frame = scenes::scene(mesh).frame().expect("a valid scene");
         let triangles = triangulated(&frame).frame;
@@ -60,7 +62,7 @@ fn frames(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
+    config = clock::criterion(rayon::current_num_threads())
         .sample_size(10)
         .warm_up_time(Duration::from_millis(200))
         .measurement_time(Duration::from_secs(1));

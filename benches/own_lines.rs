@@ -1,6 +1,9 @@
 //! Lines of a rasterizer outside the crate, with both vertices of each, in scalar code and with the
 //! best instruction set. `fastphong bench --spans` times every method's spans without a rasterizer.
 
+mod clock;
+
+use clock::OwnTime;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use fastphong::mesh::Material;
 use fastphong::number::SimdLevel;
@@ -10,7 +13,7 @@ use glam::DVec3;
 use std::hint::black_box;
 use std::time::Duration;
 
-fn own_lines(c: &mut Criterion) {
+fn own_lines(c: &mut Criterion<OwnTime>) {
     let light = Light::directional(DVec3::new(0.3, 0.4, 0.9), [1.0; 3]);
     let lighting = Lighting::new(&Material::default(), [1.0; 3], &[light], DVec3::Z);
     for name in ["gouraud", "naive-phong", "phong-rsqrt", "fast-phong"] {
@@ -41,7 +44,7 @@ fn own_lines(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
+    config = clock::criterion(1)
         .sample_size(20)
         .warm_up_time(Duration::from_millis(100))
         .measurement_time(Duration::from_millis(500));

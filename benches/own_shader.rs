@@ -5,8 +5,10 @@
 //! cargo bench --bench own_shader
 //! ```
 
+mod clock;
 mod scenes;
 
+use clock::OwnTime;
 use criterion::{BenchmarkId, Criterion, SamplingMode, criterion_group, criterion_main};
 use fastphong::number::{Num, Vec3};
 use fastphong::picture::Picture;
@@ -44,7 +46,7 @@ impl Shader for Outside {
 
 static OUTSIDE: MethodRow = MethodRow::of::<Outside>();
 
-fn own_shader(c: &mut Criterion) {
+fn own_shader(c: &mut Criterion<OwnTime>) {
     rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .use_current_thread()
@@ -75,5 +77,9 @@ fn own_shader(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, own_shader);
+criterion_group! {
+    name = benches;
+    config = clock::criterion(1);
+    targets = own_shader
+}
 criterion_main!(benches);

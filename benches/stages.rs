@@ -1,7 +1,9 @@
 //! Stages before and around shading: meshes, vertex normals, projection, coverage, triangulation.
 
+mod clock;
 mod scenes;
 
+use clock::OwnTime;
 use criterion::{Criterion, SamplingMode, Throughput, criterion_group, criterion_main};
 use fastphong::frame::triangulate::triangulated;
 use fastphong::mesh::builtin::builtin;
@@ -14,7 +16,7 @@ use std::time::Duration;
 /// A crease angle in degrees that keeps the edges of a prism and smooths a sphere.
 const CREASE: f64 = 30.0;
 
-fn stages(c: &mut Criterion) {
+fn stages(c: &mut Criterion<OwnTime>) {
     for (name, mesh) in scenes::SCENES {
         let scene = scenes::scene(mesh);
         let shape = &scene.objects[0].mesh;
@@ -55,7 +57,7 @@ fn stages(c: &mut Criterion) {
 
 /// Times the projection of scenes into frames. The meshes are triangles, and about half of them are
 /// culled. RAYON_NUM_THREADS sets how many threads project.
-fn projection(c: &mut Criterion) {
+fn projection(c: &mut Criterion<OwnTime>) {
     for (name, mesh) in scenes::TRIANGLES {
         let scene = scenes::scene(mesh);
         let shape = &scene.objects[0].mesh;
@@ -79,7 +81,7 @@ fn projection(c: &mut Criterion) {
 
 /// Times a scene of 40 parts of which one spins, from its next transform to the frame: once by
 /// moving it in a prepared scene, once by preparing the whole scene again.
-fn moving(c: &mut Criterion) {
+fn moving(c: &mut Criterion<OwnTime>) {
     let mut scene = scenes::scene("sphere?polygons=5000&triangles=true");
     for part in 1..40 {
         let place = DVec3::new(f64::from(part % 8) - 3.5, f64::from(part / 8) - 2.0, 0.0);
@@ -115,7 +117,7 @@ fn moving(c: &mut Criterion) {
 
 criterion_group! {
     name = benches;
-    config = Criterion::default()
+    config = clock::criterion(rayon::current_num_threads())
         .sample_size(20)
         .warm_up_time(Duration::from_millis(300))
         .measurement_time(Duration::from_millis(1500));

@@ -7,6 +7,7 @@ use fastphong::scene::{Camera, Fit, Light, Object, Scene};
 use glam::DVec3;
 
 /// Name and mesh of each scene.
+#[allow(dead_code)] // not every benchmark uses it
 pub const SCENES: &[(&str, &str)] = &[
     ("sphere-5k", "sphere?polygons=5000&triangles=true"),
     ("sphere-100k", "sphere?polygons=100000&triangles=true"),

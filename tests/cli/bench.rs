@@ -192,7 +192,7 @@ fn frame_times_are_one_line_per_method() {
         .done();
     let text = String::from_utf8(folder.read("times.json")).unwrap();
     let json: serde_json::Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(json["schema"], "fastphong.frame-times/1");
+    assert_eq!(json["schema"], "fastphong.frame-times/2");
     let times = json["frame_times"].as_array().unwrap();
     // Without `--methods` the default methods are timed.
     let expected = METHODS
@@ -224,10 +224,15 @@ fn frame_times_are_one_line_per_method() {
         );
         let number = |key: &str| time[key].as_f64().unwrap();
         assert!(
-            0.0 < number("ms_min") && number("ms_min") <= number("ms_median"),
+            0.0 < number("ms_min")
+                && number("ms_min") <= number("ms_typical")
+                && number("ms_typical") <= number("ms_median"),
             "{time}"
         );
-        for key in ["ms_median", "ms_min"] {
+        // Two threads have no time of their own.
+        assert_eq!(time["clock"], "passed");
+        assert!(number("interrupted") <= 3.0);
+        for key in ["ms_typical", "ms_median", "ms_min", "interrupted"] {
             // The line shows four decimals.
             assert!(
                 (after(key).parse::<f64>().unwrap() - number(key)).abs() <= 0.5e-4 + 1e-12,
@@ -274,7 +279,7 @@ fn frame_times_accept_engines_instruction_sets_and_frame_counts() {
     };
     assert!(
         lines("--engine span --simd scalar")
-            .contains(" engine span level scalar threads 1 frames 1 ms_median ")
+            .contains(" engine span level scalar threads 1 frames 1 interrupted ")
     );
     assert_eq!(
         lines("--simd all").lines().count(),
@@ -459,7 +464,7 @@ fn spans_are_timed_at_every_length() {
     let ended = folder.run("bench --spans -m gouraud,naive-phong --json spans.json");
     let text = ended.done().out;
     let json: Value = serde_json::from_slice(&folder.read("spans.json")).unwrap();
-    assert_eq!(json["schema"], "fastphong.spans/1");
+    assert_eq!(json["schema"], "fastphong.spans/2");
     let (lengths, spans) = (json["lengths"].as_array(), json["spans"].as_array());
     let (lengths, spans) = (lengths.unwrap(), spans.unwrap());
     assert_eq!((lengths.len(), spans.len()), (11, 4));
@@ -473,7 +478,9 @@ fn spans_are_timed_at_every_length() {
         assert_eq!(ns.len(), lengths.len());
         assert!(ns[10] > ns[0] && ns[0] > 0.0, "{ns:?}");
     }
-    assert_eq!(text.lines().count(), 1 + spans.len());
+    assert_eq!(text.lines().count(), 1 + spans.len() + 1);
+    let sentence = json["noise"]["sentence"].as_str().unwrap();
+    assert_eq!(text.lines().last(), Some(sentence));
     folder
         .run("bench teapot --spans")
         .refused(&["cannot be used with"]);

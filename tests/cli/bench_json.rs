@@ -115,11 +115,11 @@ fn the_page_gives_every_field_in_its_order() {
         ),
         (
             format!("bench {SPHERE} {quick} --frame-times --frames 1 --json -"),
-            "`fastphong.frame-times/1`",
+            "`fastphong.frame-times/2`",
         ),
         (
             "bench --spans --methods gouraud --json -".to_owned(),
-            "`fastphong.spans/1`",
+            "`fastphong.spans/2`",
         ),
         (
             "search --methods gouraud --restarts 1 --degrees 30 --lights 1 --json -".to_owned(),

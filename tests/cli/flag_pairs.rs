@@ -236,15 +236,18 @@ impl Done {
 /// Returns text without what differs from run to run: times, and the command line itself.
 fn lasting(bytes: Vec<u8>) -> Vec<u8> {
     fn prune(value: &mut Value) {
-        const VARYING: [&str; 8] = [
+        const VARYING: [&str; 11] = [
             "speed",
             "timing",
             "machine",
             "command_line",
             "ns",
             "seconds",
+            "ms_typical",
             "ms_median",
             "ms_min",
+            "interrupted",
+            "noise",
         ];
         match value {
             Value::Object(fields) => {

@@ -28,7 +28,7 @@ pub struct BenchArgs {
     #[command(flatten)]
     timing: TimingFlags,
     /// Time whole frames, from the prepared scene to the stored picture, one method after the
-    /// other; print a line for each, with `ms_median` and `ms_min`
+    /// other; print a line for each, with `ms_typical`, `ms_median` and `ms_min`
     #[arg(long, conflicts_with = "time_budget")]
     frame_times: bool,
     /// Time single spans of 1 to 1024 pixels with one light and with four, shaded by the methods'

@@ -5,7 +5,7 @@ use super::measured::{Measurement, command_line};
 use super::scene_flags::note_frame;
 use super::values::number;
 use super::{CliError, Log, memory};
-use crate::compare::timing::{Clock, End, Machine, Timing};
+use crate::compare::timing::{Clock, End, Machine, Noise, Timing, Trust};
 use fastphong::drawing::Drawing;
 use fastphong::frame::PreparedScene;
 use fastphong::picture::Picture8;
@@ -138,6 +138,11 @@ impl FrameTime {
             }
         }
         let timing = Timing::of(samples, 1).expect("one frame or more, each of a finite time");
+        let share = interrupted as f64 / count.frames as f64;
+        let noise = Noise::new(clock, share, count.frames, 0.0, 0.0);
+        if noise.trust == Trust::TooBusy {
+            log.warning(&format!("{input}: {variant}: {}", noise.sentence));
+        }
         Ok(Some(FrameTime {
             input: input.to_owned(),
             width: picture.width(),

@@ -78,8 +78,8 @@ pub fn span_times(methods: &[Variant], log: Log) -> Result<(String, String), Cli
     let timed = time_interleaved(Clock::new(1), &mut spans, &[], limits, |part| {
         progress.at(part, "spans")
     });
-    for (i, ns) in (0..timed.len()).map(|i| (i, timed.timing(i).typical_ns)) {
-        all[i / LENGTHS.len()].ns.push(ns);
+    for (i, timing) in timed.timings().enumerate() {
+        all[i / LENGTHS.len()].ns.push(timing.typical_ns);
     }
     let noise = timed.noise(&[]);
     let text = format!("{}{}\n", table(&all), noise.sentence);

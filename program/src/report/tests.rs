@@ -413,7 +413,7 @@ fn texts_that_are_no_documents_are_refused() {
     for other in [
         "fastphong.bench/4",
         "fastphong.bench/0",
-        "fastphong.frame-times/1",
+        "fastphong.frame-times/2",
     ] {
         assert_eq!(
             message(&format!("{{\"schema\": \"{other}\"}}")),

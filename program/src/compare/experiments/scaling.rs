@@ -180,7 +180,7 @@ impl Scaling {
         }
         let ratios: Vec<(usize, usize)> = (1..candidates.len()).map(|i| (0, i)).collect();
         let times = time_interleaved(clock(), &mut candidates, &ratios, limits, |_| ());
-        let mut timings = (0..candidates.len()).map(|i| times.timing(i));
+        let mut timings = times.timings();
         drop(candidates);
         let (frame, _) = &*canvas.0.borrow();
         if self.curves.is_empty() {

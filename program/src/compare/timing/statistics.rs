@@ -121,18 +121,20 @@ impl Ratio {
         (self.high - self.low) / 2.0 / self.typical
     }
 
-    /// Writes the ratio with the decimals that are known; `None` if not even one digit is.
+    /// Writes the ratio with the digits that are known: two where half the interval is at most 5 %
+    /// of it, behind `about` up to 30 %, else `None`.
     pub fn known(&self) -> Option<String> {
-        let half = (self.high - self.low) / 2.0;
-        let typical = self.typical;
-        if half > 0.3 * typical {
-            None
-        } else if half <= 0.005 {
-            Some(format!("{typical:.2}"))
-        } else if half <= 0.05 || (typical < 10.0 && half <= 0.1) {
-            Some(format!("{typical:.1}"))
-        } else {
-            Some(format!("about {typical:.1}"))
+        let digits = match self.typical {
+            ratio if ratio < 0.0995 => 3,
+            ratio if ratio < 0.995 => 2,
+            ratio if ratio < 9.95 => 1,
+            _ => 0,
+        };
+        let text = format!("{:.digits$}", self.typical);
+        match self.doubt() {
+            doubt if doubt > 0.3 => None,
+            doubt if doubt > 0.05 => Some(format!("about {text}")),
+            _ => Some(text),
         }
     }
 }
@@ -178,9 +180,9 @@ mod tests {
     #[test]
     fn a_ratio_prints_the_digits_that_are_known() {
         let text = |low, typical, high| Ratio::new(low, typical, high).known();
-        assert_eq!(text(0.298, 0.302, 0.306).as_deref(), Some("0.30"));
+        assert_eq!(text(0.29, 0.301, 0.31).as_deref(), Some("0.30"));
         assert_eq!(text(1.37, 1.41, 1.45).as_deref(), Some("1.4"));
-        assert_eq!(text(3.11, 3.2, 3.29).as_deref(), Some("3.2"));
+        assert_eq!(text(12.1, 12.4, 12.8).as_deref(), Some("12"));
         assert_eq!(text(0.9, 1.1, 1.3).as_deref(), Some("about 1.1"));
         assert_eq!(text(2.01, 18.79, 41.44), None);
     }

@@ -39,6 +39,9 @@ pub struct Times {
     cost_ns: f64,
     /// The typical time of a sample of each candidate, in ns.
     typical: Vec<f64>,
+    /// How far each of these hangs on the cost of an interruption: half of what the cost takes off
+    /// it, as a part of it.
+    by_cost: Vec<f64>,
     /// The samples of each round as multiples of their candidate's typical time: those of the
     /// candidates with one sample in a round, and of those with two.
     deviations: [Vec<Vec<f64>>; 2],
@@ -60,7 +63,7 @@ impl Times {
         let rounds = rounds.max().unwrap_or(0);
         // Nothing can be taken off the time that passed: it has the whole wait in it.
         let cost_ns = if clock.is_own() { cost(&samples) } else { 0.0 };
-        let mut typical = Vec::new();
+        let (mut typical, mut by_cost) = (Vec::new(), Vec::new());
         let mut deviations = [vec![Vec::new(); rounds], vec![Vec::new(); rounds]];
         for list in &samples {
             let undisturbed = |sample: &Sample| {
@@ -71,7 +74,16 @@ impl Times {
                 &mut list.iter().map(undisturbed).collect::<Vec<_>>(),
                 TYPICAL,
             );
+            let with_cost = quantile(
+                &mut list.iter().map(|sample| sample.ns).collect::<Vec<_>>(),
+                TYPICAL,
+            );
             typical.push(least);
+            by_cost.push(if least > 0.0 {
+                (with_cost / least - 1.0) / 2.0
+            } else {
+                0.0
+            });
             let pool = &mut deviations[samples_per_round(list) - 1];
             for sample in list.iter().filter(|_| least > 0.0) {
                 pool[sample.round].push(undisturbed(sample) / least);
@@ -85,14 +97,15 @@ impl Times {
             rounds,
             cost_ns,
             typical,
+            by_cost,
             deviations,
             resamples,
         }
     }
 
-    /// Returns the number of candidates.
-    pub fn len(&self) -> usize {
-        self.samples.len()
+    /// Returns the time of a call of each candidate.
+    pub fn timings(&self) -> impl Iterator<Item = Timing> {
+        (0..self.samples.len()).map(|candidate| self.timing(candidate))
     }
 
     /// Returns the clock that took the times.
@@ -106,7 +119,7 @@ impl Times {
         let list = &self.samples[candidate];
         let [low, high] = match self.resampled(candidate) {
             [] => [self.typical[candidate]; 2],
-            times => interval(times.to_vec()),
+            times => interval(times.to_vec(), self.by_cost[candidate]),
         };
         let samples_ns = list.iter().map(|sample| sample.ns / calls).collect();
         Timing::of(samples_ns, self.calls[candidate] as u32)
@@ -137,7 +150,9 @@ impl Times {
             .iter()
             .zip(self.resampled(candidate));
         let ratios = resampled.map(|(baseline, candidate)| calls * baseline / candidate);
-        let [low, high] = interval(ratios.collect());
+        // An error in the cost of an interruption changes both times the same way.
+        let by_cost = (self.by_cost[baseline] - self.by_cost[candidate]).abs();
+        let [low, high] = interval(ratios.collect(), by_cost);
         Some(Ratio::new(low, calls * of_samples, high))
     }
 
@@ -177,9 +192,7 @@ impl Times {
         let of_ratios = others.filter_map(|(b, c)| Some(self.ratio(*b, *c)?.doubt()));
         let mut doubts: Vec<f64> = of_ratios.collect();
         if ratios.is_empty() {
-            doubts = (0..self.samples.len())
-                .map(|i| self.timing(i).doubt())
-                .collect();
+            doubts = self.timings().map(|timing| timing.doubt()).collect();
         }
         let all = self.samples.iter().flatten();
         let interrupted = all.clone().filter(|sample| sample.is_interrupted).count();
@@ -224,8 +237,10 @@ fn samples_per_round(samples: &[Sample]) -> usize {
     1 + usize::from(samples.iter().any(|sample| sample.is_second))
 }
 
-/// Returns the ends of the 95 % interval of resampled values.
-fn interval(mut values: Vec<f64>) -> [f64; 2] {
-    let low = quantile(&mut values, 0.025) * (1.0 - UNSEEN);
-    [low, quantile(&mut values, 0.975) * (1.0 + UNSEEN)]
+/// Returns the ends of the 95 % interval of resampled values, each farther out by [`UNSEEN`] and by
+/// another part of it.
+fn interval(mut values: Vec<f64>, part: f64) -> [f64; 2] {
+    let part = UNSEEN + part;
+    let low = quantile(&mut values, 0.025) / (1.0 + part);
+    [low, quantile(&mut values, 0.975) * (1.0 + part)]
 }

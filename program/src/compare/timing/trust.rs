@@ -51,13 +51,7 @@ const MOST_INTERRUPTED: f64 = 0.75;
 impl Noise {
     /// Judges a run by the part of its samples that was interrupted, and by the median doubt of its
     /// ratios.
-    pub(super) fn new(
-        clock: Clock,
-        interrupted: f64,
-        rounds: usize,
-        cost_ns: f64,
-        doubt: f64,
-    ) -> Noise {
+    pub fn new(clock: Clock, interrupted: f64, rounds: usize, cost_ns: f64, doubt: f64) -> Noise {
         let is_lost = !clock.is_own() && interrupted > MOST_INTERRUPTED;
         let trust = if doubt > MOST_DOUBT || is_lost {
             Trust::TooBusy
