@@ -21,6 +21,10 @@ pub static MODULE: &[u8] = include_bytes!("live.wasm");
 /// The measurements of `examples/small/run`, as JSON.
 pub const SMALL: &str = include_str!("small.json");
 
+/// The summary of a report that was measured on a quiet machine, as JSON. `docs/findings/run` makes
+/// the report, and `tests/documents/findings.rs` the summary.
+pub const QUIET: &str = include_str!("quiet.json");
+
 /// Lists files of `script` with their texts.
 macro_rules! script {
     ($($file:literal)*) => {

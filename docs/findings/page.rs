@@ -1,5 +1,5 @@
-//! Makes the generated parts of `docs/findings.md` and `report/README.md` from the measurements of
-//! `docs/findings/run`: tables, sentences, charts and a picture of the worst cases.
+//! Makes the generated parts of `README.md`, `docs/findings.md` and `report/README.md` from the
+//! measurements of `docs/findings/run`: tables, sentences, charts and a picture of the worst cases.
 //!
 //! `tests/documents/findings.rs` writes them into the pages, or checks that the pages have them.
 
@@ -11,6 +11,7 @@ use fastphong::reference::{self, Model};
 use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use fastphong_cli::compare::experiments::WorstCase;
 use fastphong_cli::lectures::{Figure, FigureBlock, FigureContent, Panel};
+use fastphong_cli::report::{MethodError, Speed, Summary, parse, sentences};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -19,6 +20,8 @@ use std::fmt::Write;
 pub const DEGREES: [u32; 4] = [5, 15, 30, 60];
 /// The largest error, in levels, of a picture that passes for Phong's.
 const SAME: f64 = 0.5;
+
+const NAIVE: &str = "naive-phong";
 
 pub fn data(name: &str) -> Value {
     serde_json::from_str(&read(format!("docs/findings/{name}.json"))).expect("JSON")
@@ -50,39 +53,49 @@ const TIMES: [&str; 7] = [
     "positions-4",
 ];
 
+/// Reads a document that `docs/findings/run` left in `target/findings`.
+fn document(name: &str) -> Value {
+    let document = parse(&read(format!("target/findings/{name}.json"))).expect("a document");
+    let too_busy = |scene: &&Value| scene["noise"]["trust"] == "too-busy";
+    let found = list(&document, "comparisons").iter().find(too_busy);
+    assert_eq!(found, None, "{name}: measure again on a quiet machine");
+    document
+}
+
 /// Extracts from the files of [`TIMES`] what the page needs, which is stored in
-/// `docs/findings/times.json`. For each mesh: times of frames as multiples of naive Phong's
-/// (medians of rounds in which methods take turns), naive Phong's time in milliseconds, and the
-/// largest errors of the frames in levels.
+/// `docs/findings/times.json`. For each mesh: times of frames as multiples of naive Phong's, the
+/// ends of the intervals of their speeds, naive Phong's time in milliseconds, and the largest
+/// errors of the frames in levels.
 pub fn condensed() -> Value {
     let of_file = |name: &str| {
-        let document: Value =
-            serde_json::from_str(&read(format!("target/findings/{name}.json"))).expect("JSON");
+        let document = document(name);
         let comparisons = list(&document, "comparisons");
         assert_eq!(comparisons.len(), DEGREES.len());
-        let mut times = BTreeMap::<&str, Vec<f64>>::new();
-        let mut levels = BTreeMap::<&str, Vec<f64>>::new();
+        let [mut times, mut low, mut high, mut levels] =
+            [(); 4].map(|()| BTreeMap::<&str, Vec<f64>>::new());
         let mut naive = Vec::new();
         for row in comparisons
             .iter()
             .flat_map(|comparison| list(comparison, "rows"))
         {
-            let speed = &row["speed"];
-            let time = match &speed["ratio_to_naive"]["median"] {
-                Value::Null => 1.0,
-                ratio => 1.0 / number(ratio),
-            };
-            let (name, error) = (text(&row["variant"]), &row["error"]["max"]);
-            times.entry(name).or_default().push(time);
-            levels.entry(name).or_default().push(255.0 * number(error));
-            if row["variant"] == "naive-phong" {
-                naive.push(number(&speed["timing"]["median_ns"]) / 1e6);
+            let (name, speed) = (text(&row["variant"]), &row["speed"]);
+            let ratio = &speed["ratio_to_naive"];
+            for (all, value) in [
+                (&mut times, 1.0 / number(&ratio["typical"])),
+                (&mut low, number(&ratio["low"])),
+                (&mut high, number(&ratio["high"])),
+                (&mut levels, 255.0 * number(&row["error"]["max"])),
+            ] {
+                all.entry(name).or_default().push(value);
+            }
+            if name == NAIVE {
+                naive.push(number(&speed["timing"]["typical_ns"]) / 1e6);
             }
         }
         serde_json::json!({
             "command_line": document["command_line"], "machine": document["machine"],
             "level": comparisons[0]["renderer"]["level"], "naive_ms": naive, "times": times,
-            "levels": levels,
+            "low": low, "high": high, "levels": levels,
         })
     };
     TIMES
@@ -91,12 +104,19 @@ pub fn condensed() -> Value {
         .collect()
 }
 
+/// Summarises the report that `docs/findings/run` leaves in `target/findings`, for
+/// `report/quiet.json`.
+pub fn condensed_report() -> Summary {
+    Summary::of(&document("report"))
+}
+
 /// Returns times of frames as multiples of naive Phong's.
 fn times(name: &str) -> ByMethod {
     measured(name, "times")
 }
 
-/// Returns the measurement `key` of the frames of the file `name`: "times" or "levels".
+/// Returns the measurement `key` of the frames of the file `name`: "times", "low" and "high", or
+/// "levels".
 fn measured(name: &str, key: &str) -> ByMethod {
     let document = data("times");
     let all = document[name][key].as_object().expect("an object");
@@ -110,7 +130,7 @@ fn measured(name: &str, key: &str) -> ByMethod {
     all.iter().map(row).collect()
 }
 
-/// Returns the median times of naive Phong's frames in milliseconds, one for each mesh.
+/// Returns the times of naive Phong's frames in milliseconds, one for each mesh.
 fn naive(name: &str) -> Vec<f64> {
     list(&data("times")[name], "naive_ms")
         .iter()
@@ -141,14 +161,15 @@ fn errors(lights: u64) -> ByMethod {
     all
 }
 
-/// Returns, for each mesh, the least time of the methods that shade nothing at a pixel.
-fn cheapest(times: &ByMethod) -> [f64; 4] {
+/// Returns, for each mesh, the speed of the fastest method that shades nothing at a pixel.
+fn cheapest(speeds: &Speeds) -> [Speed; 4] {
     let infos = METHODS.iter().map(|entry| entry.info);
     let colours = infos.filter(|info| info.family == Family::Colours);
-    let all: Vec<_> = colours.filter_map(|info| times.get(info.name)).collect();
+    let all: Vec<_> = colours.filter_map(|info| speeds.get(info.name)).collect();
     [0, 1, 2, 3].map(|mesh| {
-        let times = all.iter().map(|times| times[mesh]);
-        times.fold(f64::INFINITY, f64::min)
+        let speeds = all.iter().map(|speeds| speeds[mesh]);
+        let fastest = speeds.max_by(|a, b| a.typical.total_cmp(&b.typical));
+        fastest.expect("some method")
     })
 }
 
@@ -157,11 +178,59 @@ fn mean(ratios: impl Iterator<Item = f64>) -> f64 {
     (logarithms.iter().sum::<f64>() / logarithms.len() as f64).exp()
 }
 
+/// Speeds as multiples of naive Phong's by the name of a method, one for each mesh.
+type Speeds = BTreeMap<String, [Speed; 4]>;
+
+/// Returns the speeds of frames.
+fn speeds(name: &str) -> Speeds {
+    let [times, low, high] = ["times", "low", "high"].map(|key| measured(name, key));
+    let of_mesh = |method: &str, mesh: usize| Speed {
+        typical: 1.0 / times[method][mesh],
+        low: low[method][mesh],
+        high: high[method][mesh],
+        tie: false,
+    };
+    let methods = times.keys();
+    methods
+        .map(|method| {
+            (
+                method.clone(),
+                [0, 1, 2, 3].map(|mesh| of_mesh(method, mesh)),
+            )
+        })
+        .collect()
+}
+
+/// Returns how many times as fast a method is as the method `over`.
+///
+/// Relative deviations of independent factors add up as squares. These factors share naive Phong's
+/// times, so that the interval is rather too wide.
+fn quotient(method: Speed, over: Speed) -> Speed {
+    let typical = method.typical / over.typical;
+    let wider = |one: f64, other: f64| one.ln().hypot(other.ln()).exp();
+    Speed {
+        typical,
+        low: typical / wider(method.typical / method.low, over.high / over.typical),
+        high: typical * wider(method.high / method.typical, over.typical / over.low),
+        tie: false,
+    }
+}
+
 /// Returns how many times as fast a method is as the method `over`: the geometric mean over the
 /// four meshes.
-fn speed(times: &ByMethod, method: &str, over: &str) -> f64 {
-    let pairs = times[over].iter().zip(times[method]);
-    mean(pairs.map(|(base, own)| base / own))
+fn speed(speeds: &Speeds, method: &str, over: &str) -> Speed {
+    let quotients = [0, 1, 2, 3].map(|mesh| quotient(speeds[method][mesh], speeds[over][mesh]));
+    Speed::mean(&quotients)
+}
+
+/// Writes a speed with the digits that its interval separates, for a table.
+fn known(speed: Speed) -> String {
+    speed.known().unwrap_or_else(|| "–".into())
+}
+
+/// Writes how many times as fast a method is as naive Phong, for a table.
+fn gain(speeds: &Speeds, method: &str) -> String {
+    known(speed(speeds, method, NAIVE))
 }
 
 /// True if the method is meant for use, not only as an exhibit.
@@ -197,22 +266,6 @@ fn short(x: f64) -> String {
         x if x < 10.0 => format!("{x:.2}"),
         x => format!("{x:.0}"),
     }
-}
-
-/// Returns the fastest method for use among those whose errors stay below half a level up to 30
-/// degrees.
-fn best(times: &ByMethod, errors: &ByMethod) -> String {
-    let names = times.keys().filter(|m| is_for_use(m));
-    let same = names.filter(|m| {
-        errors
-            .get(*m)
-            .is_some_and(|e| e[..3].iter().all(|e| *e < SAME))
-    });
-    let fastest = same.max_by(|a, b| {
-        let [a, b] = [a, b].map(|m| speed(times, m, "naive-phong"));
-        a.total_cmp(&b)
-    });
-    fastest.expect("some method").clone()
 }
 
 /// Returns times and worst errors of the methods in integers. Times are cycles per pixel on a
@@ -268,10 +321,21 @@ fn small_table() -> String {
     )
 }
 
-/// Returns the three answers at the top of the page.
-pub fn answer() -> String {
-    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
-    let (one, four) = (errors(1), errors(4));
+/// Reads the summary of the report that was measured on a quiet machine.
+fn quiet() -> Summary {
+    serde_json::from_str(&read("report/quiet.json")).expect("a summary")
+}
+
+/// Returns the three answers at the top of the page, and where the first two were measured.
+fn answer() -> String {
+    let quiet = quiet();
+    let sentences = sentences(&quiet);
+    let point = |start: &str| {
+        let mut all = sentences.iter();
+        let (head, words) = all.find(|(head, _)| head.starts_with(start)).expect(start);
+        // The file has no no-break spaces, which nobody sees.
+        format!("- **{head}:** {}\n", words.replace('\u{A0}', " "))
+    };
     let small: Value = serde_json::from_str(&read("report/small.json")).expect("JSON");
     let cycles = |name: &str| {
         let mut spans = list(&small, "spans").iter();
@@ -279,39 +343,16 @@ pub fn answer() -> String {
         number(&span["m0p_cycles"][1])
     };
     let (fast, naive, soft) = (cycles("fast"), cycles("naive"), cycles("soft-naive"));
-    let of_simd = best(&simd, &one);
-    let (of_one, of_four) = (best(&scalar, &one), best(&scalar4, &four));
-    let floor = cheapest(&simd);
-    let gains = (0..4).map(|mesh| simd[&of_simd][mesh] / floor[mesh]);
-    let (least, most) = gains.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), gain| {
-        (least.min(gain), most.max(gain))
-    });
-    let wrong = one[&of_one];
-    let four_lights = match of_one == of_four {
-        true => "and".to_string(),
-        false => format!("and `{of_four}`"),
-    };
     format!(
-        "- **A CPU renderer with SIMD: `{of_simd}`**, {:.2} times as fast as naive Phong with one light and {:.2} with four. Even \
-         a frame without shading at pixels is only {least:.2} to {most:.2} times as fast as this, depending on the mesh, so no method with Phong's \
-         picture can gain more.\n\
-         - **Scalar code with a floating-point unit: `{of_one}`** where normals turn by at most 30° over a polygon ({} levels off there, {} at \
-         60°), {:.2} times as fast as naive Phong with one light, {four_lights} {:.2} times with \
-         four. The lecture's `fast-phong` reaches {:.2} and {:.2}, its `slerp-phong` {:.2} and {:.2}.\n\
-         - **No floating-point unit: `integer::Span::fast`**, the lecture's method with tables: {fast:.0} cycles a pixel on a Cortex-M0+, \
-         {:.1} times as fast as naive Phong in the same integers and {:.0} times as fast as in emulated floats.\n",
-        speed(&simd, &of_simd, "naive-phong"),
-        speed(&simd4, &of_simd, "naive-phong"),
-        short(wrong[2]),
-        short(wrong[3]),
-        speed(&scalar, &of_one, "naive-phong"),
-        speed(&scalar4, &of_four, "naive-phong"),
-        speed(&scalar, "fast-phong", "naive-phong"),
-        speed(&scalar4, "fast-phong", "naive-phong"),
-        speed(&scalar, "slerp-phong", "naive-phong"),
-        speed(&scalar4, "slerp-phong", "naive-phong"),
+        "{}{}- **No floating-point unit:** use `integer::Span::fast`, the lecture’s method with tables: {fast:.0} cycles a pixel on a \
+         Cortex-M0+, {:.1} times as fast as naive Phong in the same integers and {:.0} times as fast as in emulated floats.\n\n\
+         Speeds are of whole frames, with their 95 % intervals, on a quiet {}, {}.\n",
+        point("SIMD"),
+        point("Scalar"),
         naive / fast,
         soft / fast,
+        quiet.machine.cpu,
+        quiet.date.expect("a date"),
     )
 }
 
@@ -319,15 +360,15 @@ pub fn answer() -> String {
 /// and in scalar code. The fastest in scalar code come first.
 fn methods() -> String {
     let errors = errors(1);
-    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(times);
-    let front_of = |times| -> BTreeSet<String> {
+    let [simd, simd4, scalar, scalar4] = ["simd-1", "simd-4", "scalar-1", "scalar-4"].map(speeds);
+    let front_of = |name| -> BTreeSet<String> {
         (0..DEGREES.len())
-            .flat_map(|mesh| front(times, &errors, mesh))
+            .flat_map(|mesh| front(&times(name), &errors, mesh))
             .collect()
     };
-    let (simd_front, scalar_front) = (front_of(&simd), front_of(&scalar));
+    let (simd_front, scalar_front) = (front_of("simd-1"), front_of("scalar-1"));
     let row = |name: &&str| {
-        let speed = |times: &ByMethod| format!("{:.2}", speed(times, name, "naive-phong"));
+        let speed = |speeds: &Speeds| gain(speeds, name);
         let mark = |front: &BTreeSet<String>| if front.contains(*name) { " ●" } else { "" };
         let is_scalar = MethodRow::named(name).is_some_and(|entry| entry.scalar_only().is_some());
         let with_simd = if is_scalar {
@@ -339,7 +380,8 @@ fn methods() -> String {
         let (one, four, cells) = (speed(&scalar), speed(&scalar4), cells(errors[*name]));
         format!("`{name}` | {cells} | {with_simd} | {one}{mark} | {four}")
     };
-    let names = fastest(&scalar);
+    let times = times("scalar-1");
+    let names = fastest(&times);
     rows(
         "| method | error at 5° | 15° | 30° | 60° | SIMD, 1 light | 4 lights | scalar, 1 light | 4 lights |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|",
         names
@@ -351,32 +393,30 @@ fn methods() -> String {
 
 /// Returns the table of methods on frames with N·H highlights.
 fn halfway_table() -> String {
-    let (times, errors) = (times("halfway-1"), errors(1));
+    let (speeds, errors) = (speeds("halfway-1"), errors(1));
     let row = |name| {
-        let (cells, speed) = (cells(errors[name]), speed(&times, name, "naive-phong"));
-        format!("`{name}` | {cells} | {speed:.2}")
+        let (cells, speed) = (cells(errors[name]), gain(&speeds, name));
+        format!("`{name}` | {cells} | {speed}")
     };
     rows(
         "| method | error at 5° | 15° | 30° | 60° | speed |\n|---|---:|---:|---:|---:|---:|",
-        fastest(&times).into_iter().map(row),
+        fastest(&times("halfway-1")).into_iter().map(row),
     )
 }
 
 /// Returns the table of methods on frames with lights and eye at positions: errors of these frames,
 /// and speeds mesh by mesh.
 fn positions_table() -> String {
-    let [one, four] = ["positions-1", "positions-4"].map(times);
+    let [one, four] = ["positions-1", "positions-4"].map(speeds);
     let levels = measured("positions-1", "levels");
     let row = |name| {
-        let speeds = one[name].map(|time| format!("{:.2}", 1.0 / time));
-        let four = speed(&four, name, "naive-phong");
-        let (errors, speeds) = (cells(levels[name]), speeds.join(" | "));
-        format!("`{name}` | {errors} | {speeds} | {four:.2}")
+        let (errors, speeds) = (cells(levels[name]), one[name].map(known).join(" | "));
+        format!("`{name}` | {errors} | {speeds} | {}", gain(&four, name))
     };
     rows(
         "| method | error at 5° | 15° | 30° | 60° | speed at 5° | 15° | 30° | 60° | 4 lights |\n\
          |---|---:|---:|---:|---:|---:|---:|---:|---:|---:|",
-        fastest(&one).into_iter().map(row),
+        fastest(&times("positions-1")).into_iter().map(row),
     )
 }
 
@@ -440,14 +480,19 @@ fn break_even(lights: u64) -> String {
 /// Returns the table of what a frame costs without shading, and what a method can gain at most.
 fn floor() -> String {
     let machines = [("SIMD", "simd-1"), ("scalar", "scalar-1")].map(|(machine, file)| {
-        let (times, naive) = (times(file), naive(file));
+        let (speeds, naive) = (speeds(file), naive(file));
         let row = |mesh: usize| {
-            let (floor, rsqrt) = (cheapest(&times)[mesh], times["phong-rsqrt"][mesh]);
-            let ms = [floor, 1.0, rsqrt].map(|time| format!("{:.2}", time * naive[mesh]));
-            let (ms, most, over) = (ms.join(" | "), 1.0 / floor, rsqrt / floor);
+            let (floor, rsqrt) = (cheapest(&speeds)[mesh], speeds["phong-rsqrt"][mesh]);
+            // Two digits are known.
+            let ms = [floor.typical, 1.0, rsqrt.typical].map(|speed| match naive[mesh] / speed {
+                ms if ms < 1.0 => format!("{ms:.2}"),
+                ms => format!("{ms:.1}"),
+            });
+            let [most, over] = [floor, quotient(floor, rsqrt)].map(known);
             format!(
-                "{machine} | {}° | {ms} | {most:.2} | {over:.2}",
-                DEGREES[mesh]
+                "{machine} | {}° | {} | {most} | {over}",
+                DEGREES[mesh],
+                ms.join(" | ")
             )
         };
         [0, 1, 2, 3].map(row)
@@ -496,65 +541,79 @@ fn normals_table() -> String {
 
 /// Returns the table of claims from the literature, each with what was measured and a verdict.
 fn claims() -> String {
-    let scalar = times("scalar-1");
+    let scalar = speeds("scalar-1");
     let over = |method: &str, other: &str| speed(&scalar, method, other);
     let errors = errors(1);
     let verdict = |holds: bool| if holds { "holds" } else { "does not hold" };
-    let times_of = |x: f64| format!("{x:.2} times");
-    let mut found: Vec<[String; 4]> = Vec::new();
-    let mut row = |claim: &str, source: &str, measured: String, holds: bool| {
-        found.push([claim.into(), source.into(), measured, verdict(holds).into()]);
+    // Where the interval contains a limit, the samples do not show on which side the speed is.
+    let within = |speed: Speed, [from, to]: [f64; 2]| {
+        if speed.low > from && speed.high < to {
+            "holds"
+        } else if speed.high < from || speed.low > to {
+            "does not hold"
+        } else {
+            "not shown"
+        }
     };
-    let gain = over("fast-phong", "naive-phong");
+    let is_over = |speed: Speed, limit: f64| match speed {
+        Speed { tie: true, .. } if limit == 1.0 => "a tie",
+        speed => within(speed, [limit, f64::INFINITY]),
+    };
+    let times_of = |speed: Speed| format!("{} times", known(speed));
+    let mut found: Vec<[String; 4]> = Vec::new();
+    let mut row = |claim: &str, source: &str, measured: String, verdict: &str| {
+        found.push([claim.into(), source.into(), measured, verdict.into()]);
+    };
+    let gain = over("fast-phong", NAIVE);
     row(
         "fast Phong is faster than naive Phong",
         "L21 4.2, 4.3",
         format!("{} as fast, scalar", times_of(gain)),
-        gain > 1.0,
+        is_over(gain, 1.0),
     );
-    for (lights, times) in [("one light", &scalar), ("four lights", &times("scalar-4"))] {
-        let slerp = speed(times, "slerp-phong", "fast-phong");
+    for (lights, speeds) in [("one light", &scalar), ("four lights", &speeds("scalar-4"))] {
+        let slerp = speed(speeds, "slerp-phong", "fast-phong");
         row(
             &format!("slerp Phong is faster still, with {lights}"),
             "L21 4.4",
             format!("{} as fast as fast Phong, scalar", times_of(slerp)),
-            slerp > 1.0,
+            is_over(slerp, 1.0),
         );
     }
-    let phong = 1.0 / over("naive-phong", "gouraud");
+    let phong = over("gouraud", NAIVE);
     row(
         "Phong shading is considerably slower than Gouraud",
         "L21 4.1",
         format!("Gouraud {} as fast, scalar", times_of(phong)),
-        phong > 1.5,
+        is_over(phong, 1.5),
     );
     let worst = errors["duff-phong"][2];
     row(
         "forward differences give naive Phong's picture",
         "Duff 1979",
         format!("{} levels off at 30°", short(worst)),
-        worst < 0.1,
+        verdict(worst < 0.1),
     );
     let bishop = over("bishop-weimer", "gouraud");
     row(
         "Taylor's quadratics: five additions a pixel, about half of Gouraud's speed",
         "Bishop, Weimer 1986; Hearn, Baker",
         format!("{} as fast as Gouraud, scalar", times_of(bishop)),
-        (0.4..=0.6).contains(&bishop),
+        within(bishop, [0.4, 0.6]),
     );
     let seams = errors["bishop-weimer"][1];
     row(
         "the error of these quadratics is not seen",
         "Bishop, Weimer 1986",
         format!("{} levels at 15°", short(seams)),
-        seams < 1.0,
+        verdict(seams < 1.0),
     );
     let (bw, six) = (errors["bishop-weimer"][1], errors["six-point"][1]);
     row(
         "quadratics through six points are nearer than Taylor's",
         "Seiler 1998",
         format!("{} levels against {} at 15°", short(six), short(bw)),
-        six < bw,
+        verdict(six < bw),
     );
     let polygon = |name: &str| {
         let counts = Variant::parse(name)
@@ -571,14 +630,14 @@ fn claims() -> String {
             polygon("six-point:midpoints=barrera"),
             polygon("six-point")
         ),
-        polygon("six-point:midpoints=barrera") < polygon("six-point"),
+        verdict(polygon("six-point:midpoints=barrera") < polygon("six-point")),
     );
     let chebyshev = over("slerp-chebyshev", "gouraud");
     row(
         "equal angles by Chebyshev's recurrence come close to Gouraud",
         "Barrera, Hast, Bengtsson 2004",
-        format!("{} of Gouraud's speed, scalar", short(chebyshev)),
-        chebyshev > 0.8,
+        format!("{} of Gouraud's speed, scalar", known(chebyshev)),
+        is_over(chebyshev, 0.8),
     );
     let series = errors["series-phong"];
     row(
@@ -589,7 +648,7 @@ fn claims() -> String {
             short(series[1]),
             short(series[2])
         ),
-        series[1] < 1.0,
+        verdict(series[1] < 1.0),
     );
     let lyon = errors["difference-vector"][1];
     row(
@@ -600,14 +659,14 @@ fn claims() -> String {
             short(errors["difference-vector"][0]),
             short(lyon)
         ),
-        lyon < 1.0,
+        verdict(lyon < 1.0),
     );
-    let h_test = over("h-test", "naive-phong");
+    let h_test = over("h-test", NAIVE);
     row(
         "it is cheaper to compute highlights only where there are some",
         "Harrison, Mitchell, Watt 1988",
         format!("{} as fast as naive Phong, scalar", times_of(h_test)),
-        h_test > 1.0,
+        is_over(h_test, 1.0),
     );
     let at_pixels = |name: &str| {
         let all = Variant::parse(name).expect("a method").operations(1);
@@ -621,7 +680,7 @@ fn claims() -> String {
             "{} additions, {} multiplications",
             walk.additions, walk.multiplications
         ),
-        (walk.additions, walk.multiplications) == (3, 0),
+        verdict((walk.additions, walk.multiplications) == (3, 0)),
     );
     let (walk, _) = at_pixels("slerp-phong");
     row(
@@ -631,7 +690,7 @@ fn claims() -> String {
             "{} and {}, including 2 and 4 for J and K",
             walk.additions, walk.multiplications
         ),
-        (walk.additions, walk.multiplications) == (4 + 2, 8 + 4),
+        verdict((walk.additions, walk.multiplications) == (4 + 2, 8 + 4)),
     );
     let (walk, shade) = at_pixels("duff-phong");
     row(
@@ -641,7 +700,7 @@ fn claims() -> String {
             "{} additions with K of the highlight, {} division, {} root",
             walk.additions, shade.divisions, shade.roots
         ),
-        (walk.additions, shade.divisions, shade.roots) == (4, 1, 1),
+        verdict((walk.additions, shade.divisions, shade.roots) == (4, 1, 1)),
     );
     let (walk, shade) = at_pixels("bishop-weimer");
     row(
@@ -651,7 +710,7 @@ fn claims() -> String {
             "{} additions for both cosines; without a table the sums, clamps, power and three channels take {} additions and {} multiplications",
             walk.additions, shade.additions, shade.multiplications
         ),
-        walk.additions == 4,
+        verdict(walk.additions == 4),
     );
     let (walk, shade) = at_pixels("kuijk-blake");
     row(
@@ -661,14 +720,14 @@ fn claims() -> String {
             "{} additions; parabolas and three channels take {} read from a table, {} additions and {} multiplications",
             walk.additions, shade.lookups, shade.additions, shade.multiplications
         ),
-        (walk.additions, walk.multiplications) == (2, 0),
+        verdict((walk.additions, walk.multiplications) == (2, 0)),
     );
-    let slower = over("gouraud", "naive-phong");
+    let slower = over("gouraud", NAIVE);
     row(
         "Phong shading takes six to seven times as long as Gouraud",
         "Hearn, Baker",
         format!("{} as long, whole frames, scalar", times_of(slower)),
-        (6.0..=7.0).contains(&slower),
+        within(slower, [6.0, 7.0]),
     );
     for (method, claim, source) in [
         (
@@ -693,7 +752,7 @@ fn claims() -> String {
                 short(error[1]),
                 short(error[2])
             ),
-            error[1] < 1.0,
+            verdict(error[1] < 1.0),
         );
     }
     let cut = diagonal();
@@ -705,14 +764,14 @@ fn claims() -> String {
             "{moved:.1}° off on a cube cut in 64 ways; uniform weights {:.1}°",
             finding(&cut, "uniform")
         ),
-        moved < 1e-4,
+        verdict(moved < 1e-4),
     );
     let spheres = finding(&cut, "spheres");
     row(
         "weights of the sine over both edges are exact on spheres",
         "Max 1999",
         format!("{spheres:.2}° off on spheres, however cut"),
-        spheres < 1e-3,
+        verdict(spheres < 1e-3),
     );
     let adaptive = over("adaptive-phong", "phong-rsqrt");
     row(
@@ -723,7 +782,7 @@ fn claims() -> String {
             times_of(adaptive),
             short(errors["adaptive-phong"][3])
         ),
-        adaptive > 1.0,
+        is_over(adaptive, 1.0),
     );
     rows(
         "| claim | source | measured | verdict |\n|---|---|---|---|",
@@ -945,64 +1004,31 @@ fn worst() -> String {
     )
 }
 
-/// Extracts what `report/README.md` needs from the report that `docs/findings/run` leaves in
-/// `target/findings`: for each method drawn by scanlines its largest error in levels, the scene of
-/// this error, and the geometric mean of its speeds as multiples of naive Phong's.
-pub fn condensed_scenes() -> Value {
-    let document: Value = serde_json::from_str(&read("target/findings/report.json")).expect("JSON");
-    let comparisons = list(&document, "comparisons");
-    let mut methods = Vec::new();
-    for row in list(&comparisons[0], "rows") {
-        let variant = &row["variant"];
-        // A method may refuse a scene.
-        let of_scenes = comparisons.iter().filter_map(|comparison| {
-            let mut rows = list(comparison, "rows").iter();
-            Some((comparison, rows.find(|row| row["variant"] == *variant)?))
-        });
-        let levels = |row: &Value| 255.0 * number(&row["error"]["max"]);
-        let worst = of_scenes
-            .clone()
-            .max_by(|a, b| levels(a.1).total_cmp(&levels(b.1)));
-        let (scene, row) = worst.expect("some scene");
-        let speeds = of_scenes.map(|(_, row)| {
-            let ratio = &row["speed"]["ratio_to_naive"]["median"];
-            ratio.as_f64().unwrap_or(1.0)
-        });
-        methods.push(serde_json::json!({
-            "variant": variant, "levels": levels(row), "scene": scene["title"],
-            "speed": mean(speeds),
-        }));
-    }
-    serde_json::json!({
-        "command_line": document["command_line"], "date": document["date"],
-        "machine": document["machine"], "scenes": comparisons.len(), "methods": methods,
-    })
-}
-
 /// Returns the table of all scenes, and where, when and how it was measured.
 fn scenes() -> String {
-    let document = data("scenes");
-    let machine = &document["machine"];
-    let words: Vec<&str> = list(&document, "command_line").iter().map(text).collect();
-    let row = |method: &Value| {
-        let (levels, speed) = (number(&method["levels"]), number(&method["speed"]));
-        let (name, scene) = (text(&method["variant"]), text(&method["scene"]));
-        format!("`{name}` | {} | {scene} | {speed:.2}", short(levels))
+    let quiet = quiet();
+    let speeds = quiet.scalar.expect("scenes in scalar code").methods;
+    let row = |method: &MethodError| {
+        let (name, levels, scene) = (&method.variant, short(method.levels), &method.scene);
+        let timed = speeds.iter().find(|timed| timed.variant == *name);
+        let speed = timed.map_or_else(|| "–".into(), |timed| timed.speed.cell());
+        format!("`{name}` | {levels} | {scene} | {speed}")
     };
     let table = rows(
         "| method | largest error, levels | in | speed, × naive Phong |\n|---|---:|---|---:|",
-        list(&document, "methods").iter().map(row),
+        quiet.methods.iter().map(row),
     );
+    let machine = quiet.machine;
     format!(
-        "{table}\nLargest error in {} scenes, in grey levels of 255; geometric mean of speeds, from the projected frame to the stored picture. Measured by \
-         `{}` on {} ({} {}), {}, on {}.\n",
-        document["scenes"],
-        words.join(" "),
-        text(&machine["cpu"]),
-        text(&machine["os"]),
-        text(&machine["arch"]),
-        text(&machine["rustc"]),
-        text(&document["date"]),
+        "{table}\nLargest error in {} scenes, in grey levels of 255; geometric mean of speeds with its 95 % interval, from the projected \
+         frame to the stored picture; = is a tie. Measured by `{}` on {} ({} {}), {}, on {}.\n",
+        quiet.scenes,
+        quiet.command_line.join(" "),
+        machine.cpu,
+        machine.os,
+        machine.arch,
+        machine.rustc,
+        quiet.date.expect("a date"),
     )
 }
 
@@ -1013,8 +1039,8 @@ fn machine() -> String {
     let level = &document["simd-1"]["level"];
     format!(
         "Measured by `docs/findings/run` on {} ({} in SIMD), {}. Frames are spheres at 640 × 480 pixels on one thread, timed from the projected frame to the \
-         stored picture; times are medians of rounds in which methods take turns. Errors are by `fastphong \
-         search` with {} restarts.\n",
+         stored picture, in the thread’s own processor time. Speeds have the digits that their 95 % intervals separate. Errors are by \
+         `fastphong search` with {} restarts.\n",
         text(&machine["cpu"]),
         text(level),
         text(&machine["rustc"]),

@@ -87,7 +87,9 @@ fn comparisons_name_the_renderer_of_each_row() {
         assert!(self::rows(&comparison).iter().all(timed), "{flags}");
     }
     let text = folder.run(&format!("compare {NEAR} {QUICK}")).done();
-    text.prints("\ndrawn by the span engine, scalar, 1 thread\n");
+    text.prints("\ndrawn by the span engine, scalar, 1 thread\n")
+        .prints("\n\nThe picture: `duff-phong` draws naive Phong’s picture within 1 grey level in this scene. ")
+        .prints("\nScalar code: ");
     let text = folder.run(&format!("compare {NEAR} {QUICK} {wide}")).done();
     text.prints(&format!("\ndrawn by the row engine, {best}, 2 threads\n"));
 }

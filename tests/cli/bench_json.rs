@@ -87,13 +87,12 @@ fn row_of<'a>(path: &'a str, whole: &'a str) -> Option<&'a str> {
         "comparisons" => "comparison",
         "rows" | "barycentric" | "kinds" => "row",
         "error" | "own" | "difference" => "difference",
-        "ratio_to_naive" | "ratio_to_barycentric" => "ratio",
+        "ratio_to_naive" | "ratio_to_barycentric" | "work_to_naive" => "ratio",
         "methods" | "operations" => "method",
         "figures" | "findings" | "live" | "handles" => "figure",
         "frame_times" | "spans" | "cases" => whole,
-        "machine" | "clamping" | "triangulation" | "stats" | "renderer" | "speed" | "timing" => {
-            place
-        }
+        "machine" | "clamping" | "triangulation" | "stats" | "renderer" | "noise" | "speed"
+        | "timing" => place,
         _ => panic!("which row of docs/bench-json.md describes {path}?"),
     })
 }

@@ -4,9 +4,10 @@ use super::engines::LectureFlags;
 use super::input_name;
 use super::measured::{Measurement, TimingFlags, command_line};
 use super::scene_flags::{SceneFlags, frame_of};
+use super::text::wrapped;
 use super::{CliError, Log, Outcome, done, weights};
 use crate::compare::comparison::{TableKind, table};
-use crate::report::Document;
+use crate::report::{Document, text_of};
 use fastphong::raster::Renderer;
 use fastphong::scene::file::shown;
 use fastphong::scene::open::Look;
@@ -57,10 +58,12 @@ impl CompareArgs {
         } else {
             TableKind::Short
         };
+        let document = Document::new(command_line(), comparisons);
         let text = if self.json {
-            Document::new(command_line(), comparisons).to_text()
+            document.to_text()
         } else {
-            comparisons.iter().map(|c| table(c, kind)).collect()
+            let tables = document.comparisons.iter().map(|c| table(c, kind));
+            tables.collect::<String>() + "\n" + &wrapped(&text_of(&document), 0)
         };
         let outcome = done(&text)?;
         if renderer == Renderer::LECTURE {

@@ -1,24 +1,31 @@
-//! The answer: which method to use on this machine, and how much it gains, in one sentence made
-//! from data.
+//! The answer: which methods draw naive Phong's picture, and which of them in the least time, in
+//! scalar code and with SIMD.
+//!
+//! It names a method only where intervals separate it from the others.
 
-use super::document::{label, list, number, text, title};
+use super::document::{Document, label, list, parse};
+use super::summary::{MethodError, MethodSpeed, SCALAR, Speed, Speeds, Summary};
 use crate::compare::comparison::BASELINE;
 use crate::compare::comparison::table::significant;
 use crate::compare::table::{html_text, markdown_text};
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::cmp::Ordering;
 use serde_json::Value;
 
 /// The lecture's own fast method, which every answer mentions.
-pub(super) const FAST: &str = "fast-phong";
+const FAST: &str = "fast-phong";
 
 /// The largest error in grey levels with which a picture passes for the reference.
-pub(super) const SAME: f64 = 1.0;
+const SAME: f64 = 1.0;
+
+/// How many methods a sentence on pictures names.
+const NAMED: usize = 3;
 
 /// A part of a sentence.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Part {
+enum Part {
     /// Plain words.
     Text(String),
     /// A number that matters, in bold.
@@ -29,228 +36,250 @@ pub(super) enum Part {
     Scene(usize, String, String),
 }
 
-/// The results of a method in all scenes.
+/// A part of the answer: what this run says, and what the run on a quiet machine says.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Overall<'a> {
-    /// The variant.
-    pub name: &'a str,
-    /// The largest error in any scene, in grey levels.
-    pub worst: f64,
-    /// The title of the scene with the largest error.
-    pub at: &'a str,
-    /// The index of that scene.
-    pub scene: usize,
-    /// In how many scenes it is faster than the baseline, beyond chance.
-    pub faster: usize,
-    /// In how many scenes it is slower, beyond chance.
-    pub slower: usize,
-    /// The geometric mean of its speeds, as multiples of the baseline's. `None` unless all scenes
-    /// were timed.
-    pub speed: Option<f64>,
+struct Card {
+    head: &'static str,
+    own: Option<Said>,
+    quiet: Option<Said>,
 }
 
-/// Summarises every variant that was drawn by scanlines in all scenes.
-pub(super) fn overall(data: &Value) -> Vec<Overall<'_>> {
-    let scenes = list(data, "/comparisons");
-    let rows = scenes.first().map_or(&[][..], |scene| list(scene, "/rows"));
-    let sums = rows
-        .iter()
-        .map(|row| in_all_scenes(text(row, "/variant"), scenes));
-    sums.flatten().collect()
+/// What one run says.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Said {
+    /// The name of the instruction set, empty for scalar code and for pictures.
+    level: String,
+    sentences: Vec<Part>,
+    /// Methods with their speeds, for lines with bars.
+    bars: Vec<(Vec<Part>, Speed)>,
 }
 
-fn in_all_scenes<'a>(name: &'a str, scenes: &'a [Value]) -> Option<Overall<'a>> {
-    let (mut worst, mut at, mut place) = (0.0, "", 0);
-    let (mut faster, mut slower) = (0, 0);
-    let mut logarithms = Some(0.0);
-    for (i, scene) in scenes.iter().enumerate() {
-        let mut rows = list(scene, "/rows").iter();
-        let row = rows.find(|row| text(row, "/variant") == name)?;
-        let error = 255.0 * number(row, "/error/max")?;
-        if error >= worst {
-            (worst, at, place) = (error, title(scene), i);
+/// The heading of the card of pictures.
+const PICTURE: &str = "The picture";
+
+/// Returns the summary of the run on a quiet machine.
+pub(super) fn quiet() -> Summary {
+    serde_json::from_str(fastphong_report::QUIET).expect("a test reads it")
+}
+
+/// Answers for pictures, scalar code and SIMD. Speeds of a quiet run stand beside the run's own.
+fn cards(own: &Summary, quiet: Option<&Summary>) -> Vec<Card> {
+    let card = |head, speeds: fn(&Summary) -> Option<&Speeds>| {
+        let said = |of: &Summary| Some(of_speeds(speeds(of)?, of.is_optimised()));
+        Card {
+            head,
+            own: said(own),
+            quiet: quiet.and_then(said),
         }
-        let speed = number(row, "/speed/ratio_to_naive/median");
-        let is_tie = row["speed"]["ratio_to_naive"]["tie"] == true;
-        faster += usize::from(!is_tie && speed > Some(1.0));
-        slower += usize::from(!is_tie && speed.is_some_and(|speed| speed < 1.0));
-        logarithms = logarithms.zip(speed).map(|(sum, s)| sum + libm::log(s));
-    }
-    Some(Overall {
-        name,
-        worst,
-        at,
-        scene: place,
-        faster,
-        slower,
-        speed: logarithms.map(|sum: f64| libm::exp(sum / scenes.len() as f64)),
-    })
+    };
+    let pictures = Said {
+        sentences: of_pictures(own),
+        ..Said::default()
+    };
+    let cards = [
+        Card {
+            head: PICTURE,
+            own: Some(pictures),
+            quiet: None,
+        },
+        card("Scalar code", |of| of.scalar.as_ref()),
+        card("SIMD", |of| of.simd.as_ref()),
+    ];
+    let is_said = |card: &Card| card.own.is_some() || card.quiet.is_some();
+    cards.into_iter().filter(is_said).collect()
 }
 
-/// Says which method to use, and how much it gains.
-pub(super) fn answer(data: &Value) -> Vec<Part> {
-    let plain = |text: &str| Part::Text(text.to_string());
-    let (all, scenes) = (overall(data), list(data, "/comparisons"));
-    if scenes.is_empty() {
-        return Vec::from([plain(&figures(data))]);
-    }
-    let Some(best) = fastest(&all) else {
-        return Vec::from([plain(&untimed(&all))]);
-    };
-    let mut parts = Vec::new();
-    if text(data, "/machine/profile") != "release" {
-        parts.push(plain("Built without optimisation, its times say nothing: "));
-    }
-    let worst = match best.worst {
-        w if w < 0.01 => "nowhere off by 0.01 grey levels".to_string(),
-        w if w < 1.0 => format!("never off by more than {w:.2} grey levels"),
-        w => format!("off by up to {} grey levels", significant(w)),
-    };
-    let scenes = match scenes.len() {
+fn plain(text: &str) -> Part {
+    Part::Text(text.to_string())
+}
+
+/// Says which methods draw naive Phong's picture, and how far off others are.
+fn of_pictures(summary: &Summary) -> Vec<Part> {
+    let frames = match summary.scenes {
         1 => "in this scene".to_string(),
-        scenes => format!("over {scenes} scenes"),
+        scenes => format!("in all {scenes} scenes"),
     };
-    let level = text(data, "/comparisons/0/renderer/level");
-    parts.extend([
-        plain("For naive Phong’s picture in the least time on this machine, use "),
-        Part::Method(best.name.into()),
-        plain(&format!(" {} (", on(level))),
-        Part::Strong(times(best.speed)),
-        plain(&format!(" as fast as naive Phong {scenes}, {worst})")),
-    ]);
-    let wide = wide_frames(&data["speedups"], &all);
-    if let Some((corner, name, ratio)) = wide {
-        let level = text(&data["speedups"]["corners"][corner], "/level");
-        parts.extend([
-            plain(" and "),
-            Part::Method(name.to_string()),
-            plain(&format!(" {} (", on(level))),
-            Part::Strong(times(Some(ratio))),
-            plain(" on one sphere)"),
-        ]);
-    }
-    let mut fast = all.iter().filter(|o| o.name == FAST && best.name != FAST);
-    if let Some(speed) = fast.next().and_then(|fast| fast.speed) {
-        parts.extend([
-            plain("; the lecture’s "),
-            Part::Method(FAST.into()),
-            plain(" reaches "),
-            Part::Strong(times(Some(speed))),
-        ]);
-        let mut methods = list(data, "/speedups/methods").iter();
-        let method = methods.find(|method| text(method, "/method") == FAST);
-        if let Some(ratio) = wide.and_then(|(corner, ..)| in_corner(method?, corner)) {
-            parts.extend([plain(" and "), Part::Strong(times(Some(ratio)))]);
+    let others = || summary.methods.iter().filter(|m| m.variant != BASELINE);
+    let same: Vec<&MethodError> = others().filter(|m| m.levels <= SAME).collect();
+    let mut parts = named(same.iter().map(|m| &*m.variant), NAMED, "and");
+    parts.push(Part::Text(match same.len() {
+        0 => format!("No other method draws naive Phong’s picture within 1 grey level {frames}."),
+        1 => format!(" draws naive Phong’s picture within 1 grey level {frames}."),
+        _ => format!(" draw naive Phong’s picture within 1 grey level {frames}."),
+    }));
+    let place = |m: &MethodError| match summary.scenes {
+        1 => Vec::new(),
+        _ => {
+            let scene = Part::Scene(m.place, m.scene.clone(), m.variant.clone());
+            Vec::from([plain(" in "), scene])
+        }
+    };
+    let method = |m: &MethodError| Part::Method(m.variant.clone());
+    let levels = |m: &MethodError| Part::Strong(significant(m.levels));
+    let one = |of: &str, m: &MethodError| {
+        let mut parts = Vec::from([plain(of), method(m), plain(" is off by up to ")]);
+        parts.extend([levels(m), plain(" levels")]);
+        parts.extend(place(m));
+        parts.push(plain("."));
+        parts
+    };
+    let (fast, mut off): (Vec<&MethodError>, Vec<&MethodError>) = others()
+        .filter(|m| m.levels > SAME)
+        .partition(|m| m.variant == FAST);
+    parts.extend(fast.iter().flat_map(|fast| one(" The lecture’s ", fast)));
+    off.sort_by(|a, b| a.levels.total_cmp(&b.levels));
+    match off[..] {
+        [] => {}
+        [other] => parts.extend(one(" ", other)),
+        [nearest, .., farthest] => {
+            parts.extend([plain(" Others are off by "), levels(nearest)]);
+            parts.extend([plain(" ("), method(nearest)]);
+            parts.extend(place(nearest));
+            parts.extend([plain(") to "), levels(farthest), plain(" levels (")]);
+            parts.push(method(farthest));
+            parts.extend(place(farthest));
+            parts.push(plain(")."));
         }
     }
-    parts.push(plain("."));
     parts
 }
 
-/// Returns the fastest method whose pictures pass for the reference, or the method with the
-/// smallest error if there is none.
-fn fastest<'a>(all: &'a [Overall<'a>]) -> Option<&'a Overall<'a>> {
-    let timed = || all.iter().filter(|o| o.speed.is_some());
-    let same = timed().filter(|o| o.worst <= SAME);
-    let near = timed().min_by(|a, b| a.worst.total_cmp(&b.worst));
-    let fastest =
-        same.max_by(|a, b| f64::total_cmp(&a.speed.unwrap_or(0.0), &b.speed.unwrap_or(0.0)));
-    fastest.or(near)
-}
-
-/// Returns the corner of whole frames with SIMD, the fastest method there that draws naive Phong's
-/// picture, and its speed.
-///
-/// The pictures of all scenes decide if it does. For a method that was not drawn there, the
-/// experiment's sphere decides.
-fn wide_frames<'a>(speedups: &'a Value, all: &[Overall<'_>]) -> Option<(usize, &'a str, f64)> {
-    let is_it =
-        |c: &Value| c["work"] == "frame" && c["scalar"] == false && text(c, "/level") != "scalar";
-    let corner = list(speedups, "/corners").iter().position(is_it)?;
-    let methods = list(speedups, "/methods").iter();
-    let drawn = |m: &Value| all.iter().find(|o| o.name == text(m, "/method"));
-    let off = |m: &Value| drawn(m).map_or(number(m, "/levels_off"), |o| Some(o.worst));
-    let same = methods.filter(|m| off(m).is_some_and(|off| off <= SAME));
-    let timed = same.filter_map(|m| Some((corner, text(m, "/method"), in_corner(m, corner)?)));
-    timed.max_by(|a, b| a.2.total_cmp(&b.2))
-}
-
-/// Returns the speed of a method in a corner, as a multiple of naive Phong's.
-fn in_corner(method: &Value, corner: usize) -> Option<f64> {
-    number(&method["corners"][corner], "/ratio_to_naive/median")
-}
-
-fn times(ratio: Option<f64>) -> String {
-    ratio.map_or_else(|| "–".into(), |ratio| format!("{ratio:.2}\u{A0}×"))
-}
-
-/// Says which instruction set drew pixels: `in scalar code`, `in AVX2 code`.
-fn on(level: &str) -> String {
-    match level {
-        "scalar" => "in scalar code".into(),
-        "avx512" => "in AVX-512 code".into(),
-        level => format!("in {} code", level.to_uppercase()),
+/// Lists methods with `last` before the last one: at most `most`, then how many more there are.
+fn named<'a>(names: impl Iterator<Item = &'a str>, most: usize, last: &str) -> Vec<Part> {
+    let names: Vec<&str> = names.collect();
+    let (shown, rest) = names.split_at(names.len().min(most));
+    let mut parts: Vec<Part> = Vec::new();
+    for (i, name) in shown.iter().enumerate() {
+        if i > 0 {
+            let is_last = i + 1 == names.len();
+            let between = if is_last {
+                format!(" {last} ")
+            } else {
+                ", ".into()
+            };
+            parts.push(Part::Text(between));
+        }
+        parts.push(Part::Method((*name).to_string()));
     }
+    if !rest.is_empty() {
+        parts.push(Part::Text(format!(" {last} {} more", rest.len())));
+    }
+    parts
 }
 
-/// Says where the method of the answer gains nothing and where its error is largest, and why faster
-/// methods are left out.
-pub(super) fn remarks(data: &Value) -> Vec<Part> {
-    let (all, scenes) = (overall(data), list(data, "/comparisons").len());
-    let Some(best) = fastest(&all) else {
+/// Returns the methods that draw naive Phong's picture in the least time: the fastest of those that
+/// are faster than naive Phong beyond doubt, then all whose intervals reach its own. Returns none
+/// if nothing is faster beyond doubt.
+fn fastest(speeds: &Speeds) -> Vec<&MethodSpeed> {
+    let faster = same(speeds).filter(|m| m.speed.is_faster());
+    let Some(best) = faster.max_by(by_speed) else {
         return Vec::new();
     };
-    let (name, mut parts) = (label(best.name), Vec::new());
-    if scenes > 1 {
-        let scene = Part::Scene(best.scene, best.at.into(), best.name.into());
-        let gains = format!(
-            "{name} is faster in {} of {scenes} scenes, slower in {}; worst in ",
-            best.faster, best.slower
-        );
-        parts.extend([Part::Text(gains), scene, Part::Text(". ".into())]);
-    }
-    let limit = best.worst.max(SAME);
-    let others = || {
-        all.iter()
-            .filter(|o| o.speed > best.speed && o.worst > limit)
-    };
-    if let Some(nearest) = others().min_by(|a, b| a.worst.total_cmp(&b.worst)) {
-        // The most exact methods are at the end of the list.
-        let names: Vec<_> = others().rev().take(1).map(|o| label(o.name)).collect();
-        let rest = match others().count() - names.len() {
-            0 => String::new(),
-            rest => format!(" and {rest} more"),
-        };
-        let who = match others().count() {
-            1 => "Another is",
-            _ => "Others are",
-        };
-        parts.push(Part::Text(format!(
-            "{who} faster, but off by {} grey levels or more: {}{rest}. ",
-            significant(nearest.worst),
-            names.join(", ")
-        )));
-    }
-    parts.push(Part::Text("Scalar: one pixel per instruction.".into()));
-    parts
+    let is_other = |m: &&MethodSpeed| m.variant != best.variant;
+    let reaches = |m: &&MethodSpeed| m.speed.high >= best.speed.low;
+    let mut others: Vec<&MethodSpeed> = same(speeds).filter(is_other).filter(reaches).collect();
+    others.sort_by(|a, b| by_speed(b, a));
+    [best].into_iter().chain(others).collect()
 }
 
-/// Returns the answer without times.
-fn untimed(all: &[Overall<'_>]) -> String {
-    let others = all.iter().filter(|o| o.name != BASELINE);
-    let Some(worst) = others.max_by(|a, b| a.worst.total_cmp(&b.worst)) else {
-        return "No times were taken.".to_string();
+/// Returns the methods that draw naive Phong's picture, without naive Phong.
+fn same(speeds: &Speeds) -> impl Iterator<Item = &MethodSpeed> {
+    let methods = speeds.methods.iter();
+    methods.filter(|m| m.variant != BASELINE && m.levels <= SAME)
+}
+
+fn by_speed(a: &&MethodSpeed, b: &&MethodSpeed) -> Ordering {
+    a.speed.typical.total_cmp(&b.speed.typical)
+}
+
+/// Says which method to use in one kind of code, how much it gains, and how much the lecture's
+/// does.
+fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
+    let mut said = Said {
+        level: match &*speeds.level {
+            SCALAR => String::new(),
+            "avx512" => "AVX-512".into(),
+            level => level.to_uppercase(),
+        },
+        sentences: Vec::new(),
+        bars: Vec::new(),
     };
-    format!(
-        "No times were taken. The largest error is that of {}: {} grey levels in {}.",
-        label(worst.name),
-        significant(worst.worst),
-        worst.at
-    )
+    if let Some(why) = &speeds.too_busy {
+        said.sentences.push(plain(why));
+        return said;
+    }
+    if speeds.methods.is_empty() {
+        said.sentences.push(plain("No times were taken."));
+        return said;
+    }
+    if !is_optimised {
+        let debug = "Built without optimisation, so these times say nothing. ";
+        said.sentences.push(plain(debug));
+    }
+    let fastest = fastest(speeds);
+    let highest = same(speeds).max_by(by_speed);
+    let best = fastest.first().copied().or(highest);
+    let frames = &speeds.frames;
+    if let [best, others @ ..] = &fastest[..] {
+        let names = named(fastest.iter().map(|m| &*m.variant), 2, "or");
+        let text = "For naive Phong’s picture in the least time, use ";
+        said.sentences.push(plain(text));
+        said.sentences.extend(names.clone());
+        if others.is_empty() {
+            said.sentences.push(plain(": "));
+        } else {
+            let name = Part::Method(best.variant.clone());
+            let tied = plain(", which are tied: ");
+            said.sentences.extend([tied, name, plain(" is ")]);
+        }
+        said.sentences.extend(times(&best.speed));
+        let text = format!(" as fast as naive Phong {frames}.");
+        said.sentences.push(Part::Text(text));
+        said.bars.push((names, best.speed));
+    } else if let Some(best) = best {
+        let nothing = plain("For naive Phong’s picture, nothing is faster than ");
+        let doubt = Part::Text(format!(" beyond doubt {frames}."));
+        let naive = Part::Method(BASELINE.into());
+        said.sentences.extend([nothing, naive, doubt]);
+        let name = Part::Method(best.variant.clone());
+        said.bars.push(([name].into(), best.speed));
+    } else {
+        let text = format!("No other method that was timed draws naive Phong’s picture {frames}.");
+        said.sentences.push(Part::Text(text));
+    }
+    let mut methods = speeds.methods.iter();
+    let fast = methods.find(|m| m.variant == FAST);
+    let is_best = best.is_some_and(|best| best.variant == FAST);
+    if let Some(fast) = fast.filter(|_| !is_best) {
+        let name = Part::Method(FAST.into());
+        let is = match fast.speed.word() {
+            "tie" => " ties with naive Phong: ".to_string(),
+            word => format!(" is {word} than naive Phong: "),
+        };
+        let lecture = plain(" The lecture’s ");
+        said.sentences
+            .extend([lecture, name.clone(), Part::Text(is)]);
+        said.sentences.extend(times(&fast.speed));
+        said.sentences.push(plain("."));
+        said.bars.push(([name].into(), fast.speed));
+    }
+    said
+}
+
+/// Writes a speed with its interval in words.
+fn times(speed: &Speed) -> Vec<Part> {
+    let interval = format!("{:.2} to {:.2}", speed.low, speed.high);
+    match speed.known() {
+        Some(known) => {
+            let known = Part::Strong(format!("{known} ×").replace(' ', "\u{A0}"));
+            Vec::from([known, Part::Text(format!(" ({interval})"))])
+        }
+        None => Vec::from([Part::Strong(format!("{interval}\u{A0}×"))]),
+    }
 }
 
 /// Returns the answer of a report without scenes, which counts the findings of its figures.
-fn figures(data: &Value) -> String {
+fn of_figures(data: &Value) -> String {
     let found = || {
         list(data, "/figures")
             .iter()
@@ -267,8 +296,96 @@ fn figures(data: &Value) -> String {
     }
 }
 
+/// Names the machine and the day of the quiet run.
+fn place(quiet: &Summary, said: &Said) -> String {
+    let level = match &*said.level {
+        "" => String::new(),
+        level => format!(" with {level}"),
+    };
+    let date = match &quiet.date {
+        None => String::new(),
+        Some(date) => format!(", {date}"),
+    };
+    format!("quiet {}{level}{date}", quiet.machine.cpu)
+}
+
+/// Writes the answer as HTML, in cards side by side. Methods and scenes are links.
+pub(super) fn html(data: &Value, quiet: &Summary) -> String {
+    let own = Summary::of(data);
+    if own.scenes == 0 {
+        let text = html_text(&of_figures(data));
+        return format!("<p class=\"answer\">{text}</p>");
+    }
+    let cards = cards(&own, Some(quiet)).into_iter().map(|card| {
+        let mut html = format!("<h2>{}</h2>", card.head);
+        // The script marks the methods that an answer on speeds names.
+        let class = if card.head == PICTURE {
+            ""
+        } else {
+            " class=\"answer\""
+        };
+        let (mut lines, sentences) = (String::new(), card.own.iter().map(|said| &said.sentences));
+        html.extend(sentences.map(|parts| format!("<p{class}>{}</p>", html_parts(parts))));
+        if let Some(said) = &card.own {
+            let level = if said.level.is_empty() { "" } else { ", " };
+            lines += &html_lines(&format!("This run{level}{}", said.level), said);
+        }
+        if let Some(said) = &card.quiet {
+            lines += &html_lines(&format!("A {}", place(quiet, said)), said);
+        }
+        if !lines.is_empty() {
+            html += &format!("<div class=\"gains\">{lines}{SCALE}</div>");
+        }
+        format!("<article class=\"card\">{html}</article>")
+    });
+    format!("<div class=\"cards\">{}</div>", cards.collect::<String>())
+}
+
+/// The scale under the bars.
+const SCALE: &str = "<span class=\"ends\" aria-hidden=\"true\"><i>0.5</i><i>1</i><i>2 ×</i></span>";
+
+/// Writes a line for each speed of a run: method, bar, value, word. Returns nothing without speeds.
+fn html_lines(by: &str, said: &Said) -> String {
+    if said.bars.is_empty() {
+        return String::new();
+    }
+    let line = |(name, speed): &(Vec<Part>, Speed)| {
+        let (name, word, bar) = (html_parts(name), speed.word(), bar(speed));
+        let tone = match word {
+            "faster" => "good",
+            "slower" => "bad",
+            _ => "",
+        };
+        let (known, low, high) = (speed.known(), speed.low, speed.high);
+        let known = known.map_or_else(|| "–".into(), |known| format!("{known}\u{A0}×"));
+        format!(
+            "<span>{name}</span><span class=\"worth\">{known} ({low:.2}–{high:.2}) <b class=\"{tone}\">{word}</b></span>\
+             <span class=\"gain {tone}\" aria-hidden=\"true\">{bar}</span>"
+        )
+    };
+    let lines: String = said.bars.iter().map(line).collect();
+    format!("<small>{}</small>{lines}", html_text(by))
+}
+
+/// Draws an interval on a logarithmic scale from 0.5 to 2. Arrows say that it goes on.
+fn bar(speed: &Speed) -> String {
+    let Speed { low, high, .. } = *speed;
+    let place = |speed: f64| 50.0 + 50.0 * libm::log2(speed).clamp(-1.0, 1.0);
+    // 2 % are seen where the interval is narrower.
+    let from = place(low).min(98.0);
+    let width = (place(high) - from).max(2.0);
+    let line = if low < 2.0 && high > 0.5 {
+        format!("<i style=\"left:{from:.1}%;width:{width:.1}%\"></i>")
+    } else {
+        String::new()
+    };
+    let left = if low < 0.5 { "<s>◂</s>" } else { "" };
+    let right = if high > 2.0 { "<u>▸</u>" } else { "" };
+    [left, &line, right].concat()
+}
+
 /// Writes a sentence as HTML. Methods and scenes are links.
-pub(super) fn html(parts: &[Part]) -> String {
+fn html_parts(parts: &[Part]) -> String {
     let part = |part: &Part| match part {
         Part::Text(text) => html_text(text),
         Part::Strong(text) => format!("<b>{}</b>", html_text(text)),
@@ -284,11 +401,63 @@ pub(super) fn html(parts: &[Part]) -> String {
     parts.iter().map(part).collect()
 }
 
-/// Writes a sentence in Markdown.
-pub(super) fn markdown(parts: &[Part]) -> String {
-    let part = |part: &Part| match part {
-        Part::Text(text) | Part::Strong(text) | Part::Scene(_, text, _) => markdown_text(text),
-        Part::Method(name) => markdown_text(&label(name)),
+/// Writes the answer in Markdown, as headings with their sentences.
+pub(super) fn markdown(data: &Value, quiet: &Summary) -> Vec<(String, String)> {
+    let own = Summary::of(data);
+    if own.scenes == 0 {
+        let text = markdown_text(&of_figures(data));
+        return Vec::from([("Answer".into(), text)]);
+    }
+    let words = |said: &Said| words(said, markdown_text, |name| markdown_text(&label(name)));
+    let point = |card: &Card| {
+        let own = card.own.iter().map(words);
+        let beside = card.quiet.iter().map(|said| {
+            let by = markdown_text(&place(quiet, said));
+            format!("On a {by}: {}", words(said))
+        });
+        let sentences: Vec<String> = own.chain(beside).collect();
+        (head(card), sentences.join(" "))
     };
-    parts.iter().map(part).collect()
+    cards(&own, Some(quiet)).iter().map(point).collect()
 }
+
+/// Returns the answer of a run as plain text: headings with their sentences. Methods have their
+/// names of the command line.
+pub fn sentences(summary: &Summary) -> Vec<(String, String)> {
+    let words = |said: &Said| words(said, str::to_string, |name| format!("`{name}`"));
+    let cards = cards(summary, None).into_iter();
+    cards
+        .filter_map(|card| Some((head(&card), words(card.own.as_ref()?))))
+        .collect()
+}
+
+/// Returns the answer of a document as lines for a terminal.
+///
+/// # Panics
+/// If the document is not one that this program makes.
+pub fn text_of(document: &Document) -> String {
+    let data = parse(&document.to_text()).expect("a document of this program");
+    let sentences = sentences(&Summary::of(&data)).into_iter();
+    let line = |(head, words)| format!("{head}: {words}\n");
+    sentences.map(line).collect()
+}
+
+/// Returns the heading of a card, with the instruction set.
+fn head(card: &Card) -> String {
+    match card.own.as_ref().map(|said| &*said.level) {
+        None | Some("") => card.head.to_string(),
+        Some(level) => format!("{}, {level}", card.head),
+    }
+}
+
+/// Joins the parts of sentences.
+fn words(said: &Said, text: fn(&str) -> String, method: fn(&str) -> String) -> String {
+    let part = |part: &Part| match part {
+        Part::Text(words) | Part::Strong(words) | Part::Scene(_, words, _) => text(words),
+        Part::Method(name) => method(name),
+    };
+    said.sentences.iter().map(part).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -20,15 +20,21 @@ use serde_json::{Value, json};
 
 /// The schema of the documents written here. Its number grows when a field changes its meaning or
 /// disappears. New fields do not change it, so readers must ignore fields that they do not know.
-pub const SCHEMA: &str = "fastphong.bench/2";
+pub const SCHEMA: &str = "fastphong.bench/3";
 
-/// The previous schema, which [`parse`] reads as well.
-pub(super) const OLDER: &str = "fastphong.bench/1";
-
-/// Says which values mean something else in documents of the schema [`OLDER`]: see
-/// `docs/bench-json.md`.
-pub(super) const NOT_COMPARABLE: &str = "errors of the row engine, bounds, SSIM and FLIP cannot be compared with those of schema \
-                                         fastphong.bench/2; times, and errors of other engines, can";
+/// The older schemas, which [`parse`] reads as well, the newest first. Each says which of its
+/// values mean something else today: see `docs/bench-json.md`.
+pub(super) const OLDER: [(&str, &str); 2] = [
+    (
+        "fastphong.bench/2",
+        "speeds are medians of time passed, which a busy machine spoils; errors can be compared",
+    ),
+    (
+        "fastphong.bench/1",
+        "errors of the row engine, bounds, SSIM and FLIP cannot be compared with those of newer schemas, errors of other engines \
+         can; speeds are medians of time passed, which a busy machine spoils",
+    ),
+];
 
 /// The results of a run, and the machine that made them.
 #[derive(Clone, Debug, Serialize)]
@@ -258,7 +264,7 @@ pub enum DocumentError {
     #[error("{0}: expected a document of schema `{SCHEMA}`")]
     Field(String),
     /// It names another schema.
-    #[error("schema `{0}`: expected `{SCHEMA}`, or the older `{OLDER}`")]
+    #[error("schema `{0}`: expected `{SCHEMA}`, or the older `{two}` or `{one}`", two = OLDER[0].0, one = OLDER[1].0)]
     Schema(String),
     /// It names no schema.
     #[error("no `schema`: expected `{SCHEMA}`")]
@@ -270,8 +276,9 @@ pub enum DocumentError {
 /// list with null and another example may contain both.
 const FIELDS: &str = include_str!("fields.json");
 
-/// Reads a document of this schema or of the older one. Values of the older schema that mean
-/// something else today become null, except errors of the row engine.
+/// Reads a document of this schema or of an older one. Values of the oldest schema that mean
+/// something else today become null, except errors of the row engine. Medians and quartiles of
+/// older schemas stand for today's typical times and their intervals.
 ///
 /// # Errors
 /// [`DocumentError`] if the text is not JSON, has another schema, or lacks a field.
@@ -279,22 +286,72 @@ pub fn parse(text: &str) -> Result<Value, DocumentError> {
     // Some editors and shells begin a text with a byte-order mark.
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);
     let mut document: Value = serde_json::from_str(text)?;
-    match document["schema"].as_str() {
-        Some(SCHEMA | OLDER) => {}
-        Some(other) => return Err(DocumentError::Schema(other.to_string())),
+    let age = match document["schema"].as_str() {
+        Some(SCHEMA) => None,
+        Some(schema) => match OLDER.iter().position(|(older, _)| *older == schema) {
+            None => return Err(DocumentError::Schema(schema.to_string())),
+            age => age,
+        },
         None => return Err(DocumentError::NoSchema),
+    };
+    let mut fields: Value = serde_json::from_str(FIELDS)?;
+    if age.is_some() {
+        without_typical(&mut fields);
     }
-    let fields: Value = serde_json::from_str(FIELDS)?;
     check(&document, &fields, "the document").map_err(DocumentError::Field)?;
-    if is_older(&document) {
+    if age.is_some() {
+        for timed in ["comparisons", "speedups", "scaling"] {
+            add_typical(&mut document[timed]);
+        }
+    }
+    if age == Some(1) {
         drop_changed(&mut document);
     }
     Ok(document)
 }
 
-/// True if a document has the schema [`OLDER`].
-pub(super) fn is_older(document: &Value) -> bool {
-    document["schema"] == OLDER
+/// Returns the schema of a document and how its values differ from today's, if it is an older one.
+pub(super) fn older(document: &Value) -> Option<(&'static str, &'static str)> {
+    let mut all = OLDER.into_iter();
+    all.find(|(schema, _)| document["schema"] == *schema)
+}
+
+/// Replaces the fields of typical times in an example by those of older schemas.
+pub(super) fn without_typical(example: &mut Value) {
+    match example {
+        Value::Object(fields) => {
+            for field in ["typical_ns", "low_ns", "high_ns"] {
+                fields.remove(field);
+            }
+            if let Some(typical) = fields.remove("typical") {
+                fields.insert("median".into(), typical);
+            }
+            fields.values_mut().for_each(without_typical);
+        }
+        Value::Array(examples) => examples.iter_mut().for_each(without_typical),
+        _ => {}
+    }
+}
+
+/// Adds the fields of typical times to timings and ratios of older schemas.
+fn add_typical(value: &mut Value) {
+    match value {
+        Value::Object(fields) => {
+            for (older, newer) in [
+                ("median", "typical"),
+                ("median_ns", "typical_ns"),
+                ("p25_ns", "low_ns"),
+                ("p75_ns", "high_ns"),
+            ] {
+                if let Some(value) = fields.get(older).cloned() {
+                    fields.insert(newer.into(), value);
+                }
+            }
+            fields.values_mut().for_each(add_typical);
+        }
+        Value::Array(values) => values.iter_mut().for_each(add_typical),
+        _ => {}
+    }
 }
 
 /// Checks that a value is of the same kind as an example. The error says where it is not.
@@ -342,7 +399,7 @@ fn check(value: &Value, example: &Value, place: &str) -> Result<(), String> {
     }
 }
 
-/// Removes the values of a document of the schema [`OLDER`] that mean something else today.
+/// Removes the values of a document of the oldest schema that mean something else today.
 fn drop_changed(document: &mut Value) {
     for comparison in document["comparisons"].as_array_mut().into_iter().flatten() {
         for rows in ["rows", "barycentric"] {

@@ -1,9 +1,8 @@
 //! The short report, for the front page of a repository.
 
-use super::document::{label, list, text, title};
+use super::document::{list, text, title};
 use super::page::{command, machine};
 use super::{Report, ScenePictures, answer, tables};
-use crate::compare::comparison::table::significant;
 use crate::compare::comparison::{NOTABLE_CLAMPING, WHAT_IS_COMPARED, WHAT_IS_TIMED};
 use crate::compare::table::markdown_text;
 use alloc::format;
@@ -26,7 +25,7 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
     let mut images = Vec::new();
     let mut text = format!("# Shading methods compared\n\n{}", opening(report));
     let scenes = list(data, "/comparisons");
-    for table in tables::all(data) {
+    for tables::Trusted { table, noise } in tables::all(data) {
         text += &format!("## {}\n\n", markdown_text(&table.caption));
         if let Some(index) = scenes.iter().position(|s| title(s) == table.caption) {
             text += &about(&scenes[index]);
@@ -35,6 +34,9 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
             }
         }
         text += &format!("{}\n", table.markdown());
+        if !noise.is_empty() {
+            text += &format!("{}\n\n", markdown_text(&noise));
+        }
     }
     Markdown { text, images }
 }
@@ -42,43 +44,23 @@ pub(super) fn markdown(report: &Report, folder: &str) -> Markdown {
 /// States the answer, the machine and the command in a few points, and says how to read the tables.
 fn opening(report: &Report) -> String {
     let data = &report.data;
-    let [answer, remarks] = [answer::answer(data), answer::remarks(data)];
-    let [answer, remarks] = [answer, remarks].map(|parts| answer::markdown(&parts));
-    let limits = remarks + &markdown_text(&report.limits());
-    let mut points = Vec::from([("Answer", answer), ("Limits", limits)]);
-    let all = answer::overall(data);
-    let fails = all
-        .iter()
-        .find(|o| o.name == answer::FAST && o.worst > answer::SAME);
-    if let Some(fast) = fails {
-        let (worst, at) = (significant(fast.worst), markdown_text(fast.at));
-        let fails = format!(
-            "The lecture’s {} is off by up to {worst} grey levels, in {at}.",
-            markdown_text(&label(fast.name))
-        );
-        points.push(("Where it fails", fails));
-    }
+    let mut points = answer::markdown(data, &answer::quiet());
+    let mut add = |head: &str, text: String| points.push((head.into(), text));
+    add("Limits", markdown_text(&report.limits()));
     let is_unfit = |c: char| c == '`' || c.is_control();
     let command = command(data).replace(is_unfit, "\u{FFFD}");
     let date = match text(data, "/date") {
         "" => String::new(),
         date => format!(" on {date}"),
     };
-    points.extend([
-        ("Machine", format!("{}.", markdown_text(&machine(data)))),
-        ("Command", format!("Made by `{command}`{date}.")),
-        ("Times", format!("A time is {WHAT_IS_TIMED}.")),
-        (
-            "Errors",
-            format!("An error is of {WHAT_IS_COMPARED}; a level is 1/255."),
-        ),
-        (
-            "Tables",
-            "One table summarises all scenes, then each scene has its own. Costs, operations and findings follow. Speeds are \
-             multiples of naive Phong’s with their 95 % interval: more is faster, and = is a tie."
-                .into(),
-        ),
-    ]);
+    add("Machine", format!("{}.", markdown_text(&machine(data))));
+    add("Command", format!("Made by `{command}`{date}."));
+    add("Times", format!("A time is {WHAT_IS_TIMED}."));
+    let errors = format!("An error is of {WHAT_IS_COMPARED}; a level is 1/255.");
+    add("Errors", errors);
+    let tables = "One table summarises all scenes, then each scene has its own. Costs, operations and findings follow. Speeds are \
+                  multiples of naive Phong’s with their 95 % interval: more is faster, and = is a tie.";
+    add("Tables", tables.into());
     let points = points.iter().filter(|(_, text)| !text.is_empty());
     let lines = points.map(|(head, text)| format!("- **{head}:** {}\n", text.trim()));
     lines.collect::<String>() + "\n"

@@ -5,7 +5,8 @@
 //! it. Rust writes the data, and the page draws it (`report/template.html`, `app.css`, and
 //! `script/` with a file for each view). Start reading in `document.rs`, then `tables.rs`.
 //!
-//! Only [`Report`] is public, for the fuzzer: everything else serves the program.
+//! Only [`Report`] is public, for the fuzzer, and the [`Summary`] of a document with its answer,
+//! for the documents that state it. Everything else serves the program.
 
 mod answer;
 mod course;
@@ -18,12 +19,18 @@ mod page;
 pub(crate) mod pairs_page;
 mod pictures;
 mod shard;
+mod summary;
 mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use answer::sentences;
+pub use document::parse;
+pub use summary::{MethodError, Speed, Summary};
+
+pub(crate) use answer::text_of;
 pub(crate) use date::utc_date;
-pub(crate) use document::{Document, FigureData, OPERATIONS, RATES, parse, small};
+pub(crate) use document::{Document, FigureData, OPERATIONS, RATES, small};
 pub(crate) use live::{MOST_BYTES, MOST_POLYGONS, live_scene};
 pub(crate) use page::shell_word;
 pub(crate) use shard::{PartOf, Shard, check_whole};
@@ -33,7 +40,7 @@ use crate::lectures::{FigureBlock, FigureContent};
 use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use document::{DocumentError, NOT_COMPARABLE, OLDER};
+use document::{DocumentError, OLDER, older};
 use fastphong::picture::encoding::store;
 use markdown::Markdown;
 use pictures::{Pictures, halved, png};
@@ -169,19 +176,21 @@ impl Report {
     /// Says which values of a document that was [read](Self::read) cannot be compared with today's.
     /// Returns `None` if its schema is today's.
     pub(crate) fn not_comparable(&self) -> Option<String> {
-        let is_older = document::is_older(&self.data);
-        is_older.then(|| alloc::format!("schema {OLDER}: {NOT_COMPARABLE}"))
+        let (schema, differs) = older(&self.data)?;
+        Some(alloc::format!("schema {schema}: {differs}"))
     }
 
     /// Says which values of this document and of the documents beside it cannot be compared. Empty
     /// if all can.
     fn limits(&self) -> String {
-        let mut all = [&self.data].into_iter().chain(&self.beside);
-        if all.any(document::is_older) {
-            alloc::format!(" Of documents of schema {OLDER}: {NOT_COMPARABLE}.")
-        } else {
-            String::new()
-        }
+        let all = || [&self.data].into_iter().chain(&self.beside);
+        let there = OLDER
+            .iter()
+            .filter(|(schema, _)| all().any(|of| of["schema"] == *schema));
+        let sentences: Vec<String> = there
+            .map(|(schema, differs)| alloc::format!("Of documents of schema {schema}: {differs}."))
+            .collect();
+        sentences.join(" ")
     }
 
     /// Returns the run and the part of it that a document holds which was [read](Self::read).
@@ -261,7 +270,7 @@ impl Report {
     /// Writes every table as comma-separated values, after a line with its caption.
     pub fn csv(&self) -> String {
         let tables = tables::all(&self.data);
-        let all = tables.iter().map(|table| {
+        let all = tables.iter().map(|tables::Trusted { table, .. }| {
             let caption = table.caption.replace('"', "\"\"");
             alloc::format!("\"{caption}\"\r\n{}\r\n", table.csv())
         });

@@ -4,8 +4,9 @@
 use super::document::{list, number, text};
 use super::modules::joined;
 use super::pictures::data_uri;
-use super::{Report, answer, course, live, tables};
-use crate::compare::table::{Table, html_text};
+use super::tables::{self, Trusted};
+use super::{Report, answer, course, live};
+use crate::compare::table::html_text;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -28,10 +29,9 @@ pub(super) fn page(report: &Report) -> String {
     let parts = [
         ("title", html_text(title)),
         ("style", bare(STYLE)),
-        ("answer", answer::html(&answer::answer(data))),
         (
-            "remarks",
-            answer::html(&answer::remarks(data)) + &html_text(&report.limits()),
+            "answer",
+            answer::html(data, &answer::quiet()) + &limits(report),
         ),
         ("static", readable(report)),
         ("course", course::html(data)),
@@ -42,6 +42,14 @@ pub(super) fn page(report: &Report) -> String {
         ("script", script("page.js")),
     ];
     filled(TEMPLATE, &parts)
+}
+
+/// Says which values of the documents cannot be compared, if there are any.
+fn limits(report: &Report) -> String {
+    match &*report.limits() {
+        "" => String::new(),
+        limits => format!("<p class=\"remarks\">{}</p>", html_text(limits)),
+    }
 }
 
 /// Replaces each `{{name}}` of a template. It does not look for names in the parts that it fills
@@ -170,16 +178,23 @@ fn readable(report: &Report) -> String {
             "<figure><img src=\"{uri}\" alt=\"{name}\"><figcaption>{name}</figcaption></figure>"
         );
     }
-    let folded = |table: &Table| {
-        let caption = html_text(&table.caption);
+    let shown = |of: &Trusted| {
+        let noise = match &*of.noise {
+            "" => String::new(),
+            noise => format!("<p>{}</p>", html_text(noise)),
+        };
+        format!("<div class=\"scroll\">{}</div>{noise}", of.table.html())
+    };
+    let folded = |of: &Trusted| {
+        let caption = html_text(&of.table.caption);
         format!(
-            "<details><summary>{caption}</summary><div class=\"scroll\">{}</div></details>",
-            table.html()
+            "<details><summary>{caption}</summary>{}</details>",
+            shown(of)
         )
     };
     let tables = tables::all(&report.data);
     if let [first, rest @ ..] = &tables[..] {
-        html += &format!("<div class=\"scroll\">{}</div>", first.html());
+        html += &shown(first);
         html.extend(rest.iter().map(folded));
     }
     html

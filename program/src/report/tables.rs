@@ -1,7 +1,7 @@
 //! The tables for Markdown, for CSV, and for readers of the page without JavaScript.
 
-use super::answer::overall;
 use super::document::{OPERATIONS, RATES, label, list, number, text, title};
+use super::summary::{Speed, Summary, is_too_busy, of_scenes};
 use crate::compare::comparison::NOTABLE_CLAMPING;
 use crate::compare::comparison::table::{levels, significant};
 use crate::compare::table::Table;
@@ -13,29 +13,48 @@ use serde_json::Value;
 /// A cell without a value.
 const NONE: &str = "–";
 
+/// A table, and a sentence on how far to trust its times, which stands under it. The sentence is
+/// empty if there are no times, or the document does not say.
+pub(super) struct Trusted {
+    pub table: Table,
+    pub noise: String,
+}
+
 /// Returns all tables of a document: all scenes, each scene, speeds in four corners, growth,
 /// processors without a floating-point unit, operations, and findings.
-pub(super) fn all(data: &Value) -> Vec<Table> {
+pub(super) fn all(data: &Value) -> Vec<Trusted> {
     let scenes = list(data, "/comparisons");
     let mut tables = Vec::new();
+    let mut add = |table, noise: &Value| {
+        let noise = text(noise, "/sentence").to_string();
+        tables.push(Trusted { table, noise });
+    };
     if scenes.len() > 1 {
-        tables.push(summary(data));
+        add(summary(data), &Value::Null);
     }
-    tables.extend(scenes.iter().map(scene));
+    for of in scenes {
+        add(scene(of), &of["noise"]);
+    }
     if data["speedups"].is_object() {
-        tables.push(corners(&data["speedups"]));
+        add(corners(&data["speedups"]), &data["speedups"]["noise"]);
     }
     if data["scaling"].is_object() {
-        tables.push(growth(&data["scaling"]));
+        let points = list(&data["scaling"], "/points").iter();
+        let trust = |noise: &&Value| {
+            let order = ["quiet", "busy", "too-busy"];
+            order.iter().position(|trust| noise["trust"] == *trust)
+        };
+        let worst = points.map(|point| &point["noise"]).max_by_key(trust);
+        add(growth(&data["scaling"]), worst.unwrap_or(&Value::Null));
     }
     if data["small"].is_object() {
-        tables.push(small(&data["small"]));
+        add(small(&data["small"]), &Value::Null);
     }
     if !list(data, "/methods").is_empty() {
-        tables.push(operations(data));
+        add(operations(data), &Value::Null);
     }
     if !list(data, "/figures").is_empty() {
-        tables.push(findings(data));
+        add(findings(data), &Value::Null);
     }
     tables
 }
@@ -47,17 +66,23 @@ fn cell(value: &Value, pointer: &str, write: impl Fn(f64) -> String) -> String {
 
 /// Summarises every method over all scenes.
 fn summary(data: &Value) -> Table {
-    let scenes = list(data, "/comparisons").len();
+    let scenes: Vec<&Value> = list(data, "/comparisons").iter().collect();
     let head = ["method", "max error, levels", "in", "speed, × naive Phong"];
     let mut table = Table::new(
-        format!("All methods in {scenes} scenes: largest error anywhere, geometric mean of speeds"),
+        format!(
+            "All methods in {} scenes: largest error anywhere, geometric mean of speeds",
+            scenes.len()
+        ),
         &head,
     );
-    for method in overall(data) {
-        let speed = method.speed.map_or(NONE.into(), |s| format!("{s:.2}"));
-        let (worst, at) = (significant(method.worst), method.at.to_string());
-        let row = [label(method.name), worst, at, speed];
-        table.rows.push(row.into());
+    let methods = Summary::of(data).methods;
+    let speeds = of_scenes(&scenes, "", &methods);
+    for method in methods {
+        let mut speeds = speeds.methods.iter().filter(|_| speeds.too_busy.is_none());
+        let speed = speeds.find(|timed| timed.variant == method.variant);
+        let speed = speed.map_or_else(|| NONE.into(), |timed| timed.speed.cell());
+        let (name, worst) = (label(&method.variant), significant(method.levels));
+        table.rows.push([name, worst, method.scene, speed].into());
     }
     table
 }
@@ -118,8 +143,8 @@ pub(super) fn scene(scene: &Value) -> Table {
             cell(row, "/error/max", levels),
             cell(row, "/error/rms", levels),
             cell(row, "/other_polygon", |n| n.to_string()),
-            cell(row, "/speed/timing/median_ns", |ns| significant(ns / 1e6)),
-            ratio(&row["speed"]["ratio_to_naive"]),
+            time(row, "/speed/timing/typical_ns", &scene["noise"]),
+            ratio(&row["speed"]["ratio_to_naive"], &scene["noise"]),
         ]);
         if is_clamped {
             cells.insert(4, cell(row, "/clamped", |n| n.to_string()));
@@ -136,11 +161,20 @@ pub(super) fn clamped_share(scene: &Value) -> f64 {
     count("clamped") / count("covered").max(1.0)
 }
 
-/// Writes a ratio with its interval. A `=` before it says that the interval contains 1.
-fn ratio(ratio: &Value) -> String {
-    let tie = if ratio["tie"] == true { "= " } else { "" };
-    let [low, high] = ["/low", "/high"].map(|end| cell(ratio, end, |v| format!("{v:.2}")));
-    cell(ratio, "/median", |v| format!("{tie}{v:.2} ({low}–{high})"))
+/// Writes a time in milliseconds, or [`NONE`] if the machine was too busy.
+fn time(value: &Value, pointer: &str, noise: &Value) -> String {
+    if is_too_busy(noise) {
+        NONE.into()
+    } else {
+        cell(value, pointer, |ns| significant(ns / 1e6))
+    }
+}
+
+/// Writes a ratio with its interval, or [`NONE`] if the machine was too busy. A `=` before it says
+/// that it is a tie.
+fn ratio(ratio: &Value, noise: &Value) -> String {
+    let speed = Speed::of(ratio).filter(|_| !is_too_busy(noise));
+    speed.map_or_else(|| NONE.into(), |speed| speed.cell())
 }
 
 /// Lists the speeds of all methods in kernels and frames, scalar and SIMD.
@@ -163,7 +197,7 @@ fn corners(speedups: &Value) -> Table {
         let off = method["levels_off"].to_string();
         let mut row = Vec::from([label(text(method, "/method")), off]);
         let speeds = list(method, "/corners").iter();
-        row.extend(speeds.map(|speed| ratio(&speed["ratio_to_naive"])));
+        row.extend(speeds.map(|speed| ratio(&speed["ratio_to_naive"], &speedups["noise"])));
         table.rows.push(row);
     }
     table
@@ -172,7 +206,7 @@ fn corners(speedups: &Value) -> Table {
 /// Lists the measured points of growth: a row for each frame, a column for each method.
 fn growth(scaling: &Value) -> Table {
     let caption = format!(
-        "Growth: least times in ms of frames of {}",
+        "Growth: times in ms of frames of {}",
         text(scaling, "/mesh")
     );
     let head = ["size", "triangles", "covered pixels", "projection only"];
@@ -182,16 +216,15 @@ fn growth(scaling: &Value) -> Table {
         let [engine, level] = ["/engine", "/level"].map(|of| text(curve, of));
         format!("{}, {engine}, {level}", label(text(curve, "/method")))
     }));
-    let ms = |value: &Value, at: &str| cell(value, at, |ns| significant(ns / 1e6));
     for (i, point) in list(scaling, "/points").iter().enumerate() {
         let mut row = Vec::from([
             format!("{} × {}", point["size"][0], point["size"][1]),
             point["triangles"].to_string(),
             point["pixels"].to_string(),
-            ms(point, "/projection/min_ns"),
+            time(point, "/projection/typical_ns", &point["noise"]),
         ]);
-        let time = format!("/times/{i}/min_ns");
-        row.extend(curves.iter().map(|curve| ms(curve, &time)));
+        let at = format!("/times/{i}/typical_ns");
+        row.extend(curves.iter().map(|curve| time(curve, &at, &point["noise"])));
         table.rows.push(row);
     }
     table

@@ -1,5 +1,4 @@
-use super::answer::{answer, html, overall, remarks};
-use super::document::{SCHEMA, list, title};
+use super::document::{OLDER, SCHEMA, list, title, without_typical};
 use super::*;
 use crate::compare::comparison::{
     Input, MethodRow, Speed, WHAT_IS_COMPARED, WHAT_IS_TIMED, compare,
@@ -63,15 +62,6 @@ fn given(row: &mut MethodRow, of: &[(&str, f64, f64)]) {
         ratio_to_barycentric: None,
         work_to_naive: None,
     });
-}
-
-/// Returns the answer for one scene with made-up values.
-fn said(of: &[(&str, f64, f64)], study: Option<Speedups>) -> String {
-    let mut document = document(&[(SPHERE, "sphere")]);
-    let rows = &mut document.comparisons[0].rows;
-    rows.iter_mut().for_each(|row| given(row, of));
-    document.speedups = study;
-    answer::markdown(&answer(&report(&document).data))
 }
 
 fn study(of: &[(&str, u8, f64)]) -> Speedups {
@@ -245,90 +235,7 @@ fn figures_are_data_and_pictures() {
     assert!(pictures.contains("data:image/png;base64,"));
     let name = format!("{}-1.png", FIGURES[0].name);
     assert_eq!(report.figure_files().next().unwrap().0, name);
-    assert!(html(&answer(&report.data)).contains("1 are as printed"));
-}
-
-#[test]
-fn the_answer_names_the_fastest_of_those_that_draw_the_picture() {
-    let of = [
-        ("naive-phong", 1.0, 0.1),
-        ("gouraud", 5.0, 90.0),
-        ("duff-phong", 1.25, 0.2),
-        ("fast-phong", 1.1, 3.0),
-        ("phong-rsqrt", 1.2, 0.1),
-    ];
-    assert_eq!(
-        said(&of, None),
-        "For naive Phong’s picture in the least time on this machine, use Duff Phong in scalar code (1.25\u{A0}× \
-         as fast as naive Phong in this scene, never off by more than 0.20 grey levels); the lecture’s fast Phong reaches 1.10\u{A0}×."
-    );
-    let wide = study(&[
-        ("phong-rsqrt", 1, 1.5),
-        ("gouraud", 80, 9.0),
-        // Fast enough, but off by three levels in the scene.
-        ("fast-phong", 1, 1.8),
-    ]);
-    let text = said(&of, Some(wide));
-    assert!(
-        text.contains("and Phong rsqrt in AVX2 code (1.50\u{A0}× on one sphere);"),
-        "{text}"
-    );
-    assert!(
-        text.ends_with("reaches 1.10\u{A0}× and 1.80\u{A0}×."),
-        "{text}"
-    );
-}
-
-#[test]
-fn the_answer_names_gaps() {
-    let mut document = document(&[(SPHERE, "sphere")]);
-    let text = answer::markdown(&answer(&report(&document).data));
-    assert!(
-        text.starts_with("No times were taken. The largest error"),
-        "{text}"
-    );
-    document.comparisons.clear();
-    let report = report(&document);
-    let text = answer::markdown(&answer(&report.data));
-    assert_eq!(text, "Nothing was compared.");
-    assert!(report.html().contains("Nothing was compared."));
-}
-
-#[test]
-fn a_method_over_all_scenes_is_its_worst_error_and_mean_speed() {
-    let mut document = document(&[(SPHERE, "sphere"), ("prism", "prism")]);
-    let speeds = [(2.0, 0.5), (8.0, 0.25)];
-    for (scene, (speed, levels)) in document.comparisons.iter_mut().zip(speeds) {
-        let rows = &mut scene.rows;
-        rows.iter_mut()
-            .for_each(|row| given(row, &[("duff-phong", speed, levels)]));
-    }
-    let report = report(&document);
-    let all = overall(&report.data);
-    let duff = all.iter().find(|o| o.name == "duff-phong").unwrap();
-    assert_eq!((duff.worst, duff.at), (0.5, "sphere"));
-    assert!((duff.speed.unwrap() - 4.0).abs() < 1e-12, "√(2 · 8)");
-}
-
-#[test]
-fn remarks_count_gains_and_losses_and_name_what_was_left_out() {
-    let mut document = document(&[(SPHERE, "sphere"), ("prism", "prism"), ("cube", "cube")]);
-    let speeds = [(2.0, 0.2), (1.5, 0.5), (0.8, 0.1)];
-    for (scene, (speed, levels)) in document.comparisons.iter_mut().zip(speeds) {
-        let of = [("duff-phong", speed, levels), ("gouraud", 9.0, 90.0)];
-        scene.rows.iter_mut().for_each(|row| given(row, &of));
-    }
-    let parts = remarks(&report(&document).data);
-    let text = answer::markdown(&parts);
-    assert!(
-        text.starts_with(
-            "Duff Phong is faster in 2 of 3 scenes, slower in 1; worst in prism. \
-             Another is faster, but off by 90.0 grey levels or more: Gouraud. Scalar:"
-        ),
-        "{text}"
-    );
-    let link = "<a data-scene=\"1\" data-of=\"duff-phong\">prism</a>";
-    assert!(html(&parts).contains(link), "{}", html(&parts));
+    assert!(page.contains("<p class=\"answer\">Of 1 statements measured, 1 are as printed"));
 }
 
 #[test]
@@ -338,7 +245,8 @@ fn markdown_and_csv_hold_every_table() {
     let report = report(&document);
     let markdown = report.markdown("images");
     for text in [
-        "# Shading methods compared\n\n- **Answer:** ",
+        "# Shading methods compared\n\n- **The picture:** ",
+        "- **Scalar code:** No times were taken. On a quiet ",
         "40 × 30 pixels, ",
         " in view, 1 light, ",
         "Made by `fastphong report 'a b'`",
@@ -362,13 +270,31 @@ fn timed(comparison: &mut Comparison) {
     }
 }
 
+/// Returns a timed document with an experiment and a figure as JSON.
+fn whole() -> Value {
+    let mut document = document(&[(SPHERE, "sphere")]);
+    timed(&mut document.comparisons[0]);
+    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
+    document.comparisons[0].noise = document.speedups.as_ref().map(|of| of.noise.clone());
+    document.figures.push(figure());
+    serde_json::from_str(&document.to_text()).unwrap()
+}
+
+/// Returns the same document as JSON of an older schema.
+fn older(schema: &str) -> Value {
+    let mut older = whole();
+    without_typical(&mut older);
+    older["schema"] = schema.into();
+    older
+}
+
 #[test]
 fn documents_come_back_as_they_went() {
     let mut document = document(&[("prism", "a \"prism\"\n")]);
     timed(&mut document.comparisons[0]);
     document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
     let text = document.to_text();
-    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/2\",\n"));
+    assert!(text.starts_with("{\n  \"schema\": \"fastphong.bench/3\",\n"));
     let read = Report::read(text.clone()).unwrap();
     assert_eq!((&read.text, &read.data), (&text, &report(&document).data));
     let rows = list(&read.data, "/comparisons/0/rows");
@@ -412,11 +338,7 @@ fn parameters_are_numbers_or_auto() {
 fn the_description_names_every_field() {
     let description = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench-json.md");
     let description = std::fs::read_to_string(description).expect("the page");
-    let mut document = document(&[(SPHERE, "sphere")]);
-    timed(&mut document.comparisons[0]);
-    document.figures.push(figure());
-    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
-    let document: Value = serde_json::from_str(&document.to_text()).unwrap();
+    let document = whole();
     let mut left = vec![&document];
     let mut fields = 0;
     while let Some(value) = left.pop() {
@@ -450,16 +372,17 @@ fn the_description_names_every_field() {
 /// The reader requires every field that views need, with its type.
 #[test]
 fn every_field_that_is_read_is_needed_unless_marked() {
-    let mut document = document(&[(SPHERE, "sphere")]);
-    timed(&mut document.comparisons[0]);
-    let whole: Value = serde_json::from_str(&document.to_text()).unwrap();
+    let whole = whole();
     let message = |data: &Value| parse(&data.to_string()).unwrap_err().to_string();
     for (pointer, field) in [
         ("", "machine"),
         ("/machine", "cpu"),
         ("/comparisons/0", "rows"),
         ("/comparisons/0/rows/0/error", "max"),
-        ("/comparisons/0/rows/0/speed/timing", "median_ns"),
+        ("/comparisons/0/rows/0/speed/timing", "typical_ns"),
+        ("/comparisons/0/rows/0/speed/ratio_to_naive", "typical"),
+        ("/comparisons/0/noise", "trust"),
+        ("/speedups/noise", "sentence"),
     ] {
         let mut lacks = whole.clone();
         let parent = lacks.pointer_mut(pointer).unwrap();
@@ -472,31 +395,38 @@ fn every_field_that_is_read_is_needed_unless_marked() {
     }
     let mut without = whole.clone();
     without["comparisons"][0]["rows"][0]["speed"] = Value::Null;
+    without["comparisons"][0]["noise"] = Value::Null;
     assert!(parse(&without.to_string()).is_ok(), "no times were taken");
+    // Older documents are checked for their own fields.
+    let mut older = older(OLDER[0].0);
+    assert!(parse(&older.to_string()).is_ok());
+    let ratio = &mut older["comparisons"][0]["rows"][0]["speed"]["ratio_to_naive"];
+    *ratio = json!({ "typical": 1.0, "low": 1.0, "high": 1.0, "tie": true });
+    assert!(message(&older).contains("ratio_to_naive: missing field `median`"));
 }
 
 #[test]
 fn texts_that_are_no_documents_are_refused() {
     let message = |text: &str| parse(text).unwrap_err().to_string();
-    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/2`");
-    assert_eq!(message("[]"), "no `schema`: expected `fastphong.bench/2`");
+    assert_eq!(message("{}"), "no `schema`: expected `fastphong.bench/3`");
+    assert_eq!(message("[]"), "no `schema`: expected `fastphong.bench/3`");
     for other in [
-        "fastphong.bench/3",
+        "fastphong.bench/4",
         "fastphong.bench/0",
         "fastphong.frame-times/2",
     ] {
         assert_eq!(
             message(&format!("{{\"schema\": \"{other}\"}}")),
             format!(
-                "schema `{other}`: expected `fastphong.bench/2`, or the older `fastphong.bench/1`"
+                "schema `{other}`: expected `fastphong.bench/3`, or the older `fastphong.bench/2` or `fastphong.bench/1`"
             )
         );
     }
-    for schema in [SCHEMA, OLDER] {
+    for schema in [SCHEMA, OLDER[0].0, OLDER[1].0] {
         assert!(message(&format!("{{\"schema\": \"{schema}\"}}")).contains("missing field"));
     }
     assert!(message("{\n]").contains("line 2 column 1"));
-    assert!(message("").contains("fastphong.bench/2"));
+    assert!(message("").contains("fastphong.bench/3"));
     // Lists deeper than in any document, and numbers that JSON does not have.
     assert!(message(&"[".repeat(100_000)).contains("recursion limit exceeded at line 1"));
     assert!(message("{\"seconds\": NaN}").contains("expected value at line 1 column"));
@@ -506,10 +436,7 @@ fn texts_that_are_no_documents_are_refused() {
 /// A field with another kind of value, or with a number out of range, is reported with its place.
 #[test]
 fn values_of_another_kind_are_told_with_their_place() {
-    let mut document = document(&[(SPHERE, "sphere")]);
-    timed(&mut document.comparisons[0]);
-    document.speedups = Some(study(&[("naive-phong", 0, 1.0)]));
-    let whole: Value = serde_json::from_str(&document.to_text()).unwrap();
+    let whole = whole();
     for (pointer, value, told) in [
         (
             "/comparisons",
@@ -576,7 +503,7 @@ fn values_of_another_kind_are_told_with_their_place() {
         *other.pointer_mut(pointer).expect(pointer) = value;
         let message = parse(&other.to_string()).unwrap_err().to_string();
         assert!(message.contains(told), "{message}");
-        assert!(message.ends_with(": expected a document of schema `fastphong.bench/2`"));
+        assert!(message.ends_with(": expected a document of schema `fastphong.bench/3`"));
     }
     assert!(
         parse(&format!("\u{FEFF}{whole}")).is_ok(),
@@ -584,16 +511,12 @@ fn values_of_another_kind_are_told_with_their_place() {
     );
 }
 
-/// Values of older documents that mean something else today are removed, and the report says so.
-/// All others stay.
+/// Values of the oldest documents that mean something else today are removed, and the report says
+/// so. All others stay.
 #[test]
 fn older_documents_lose_the_numbers_that_changed_their_meaning() {
-    let mut document = document(&[(SPHERE, "sphere")]);
-    timed(&mut document.comparisons[0]);
-    let mut older: Value = serde_json::from_str(&document.to_text()).unwrap();
-    older["schema"] = OLDER.into();
-    let newer = Report::read(document.to_text()).unwrap();
-    let mut older = Report::read(older.to_string()).unwrap();
+    let newer = Report::read(whole().to_string()).unwrap();
+    let mut older = Report::read(older(OLDER[1].0).to_string()).unwrap();
     assert_eq!(newer.not_comparable(), None);
     let said = older.not_comparable().expect("an older document");
     assert!(
@@ -609,12 +532,7 @@ fn older_documents_lose_the_numbers_that_changed_their_meaning() {
             "{field}"
         );
     }
-    for field in [
-        "error/max",
-        "error/psnr",
-        "speed/timing/median_ns",
-        "other_polygon",
-    ] {
+    for field in ["error/max", "error/psnr", "other_polygon"] {
         let at = format!("/comparisons/0/rows/1/{field}");
         assert_eq!(older.data.pointer(&at), newer.data.pointer(&at), "{field}");
     }
@@ -628,4 +546,42 @@ fn older_documents_lose_the_numbers_that_changed_their_meaning() {
     assert!(both.html().contains(remark), "also where it lies beside");
     older.lay_beside(newer);
     assert!(older.html().contains(remark));
+}
+
+/// Speeds of documents that state no noise are shown, with a note on what they are.
+#[test]
+fn speeds_of_documents_with_medians_are_shown_with_a_note() {
+    let timing = json!({ "median_ns": 4e6, "min_ns": 2e6, "p25_ns": 3e6, "p75_ns": 5e6 });
+    let median = json!({ "median": 1.25, "low": 1.23, "high": 1.27, "tie": false });
+    let mut data = older("fastphong.bench/2");
+    data["comparisons"][0]["noise"] = Value::Null;
+    for row in data["comparisons"][0]["rows"].as_array_mut().unwrap() {
+        row["error"]["max"] = json!(if row["variant"] == "duff-phong" {
+            0.0
+        } else {
+            0.5
+        });
+        row["speed"] = json!({ "timing": timing, "ratio_to_naive": median });
+    }
+    let read = Report::read(data.to_string()).unwrap();
+    let speed = &read.data["comparisons"][0]["rows"][0]["speed"];
+    for (field, value) in [("typical_ns", 4e6), ("low_ns", 3e6), ("high_ns", 5e6)] {
+        assert_eq!(speed["timing"][field], value, "{field}");
+    }
+    assert_eq!(speed["ratio_to_naive"]["typical"], 1.25);
+    let told = "schema fastphong.bench/2: speeds are medians of time passed, which a busy machine spoils; errors can be compared";
+    assert_eq!(read.not_comparable().as_deref(), Some(told));
+    let markdown = read.markdown("images").text.replace('\u{A0}', " ");
+    for text in ["use Duff Phong: 1.2 × (1.23 to 1.27)", told] {
+        assert!(markdown.contains(text), "{text}: {markdown}");
+    }
+    let html = read.html();
+    let note = format!("<p class=\"remarks\">Of documents of {told}.</p>");
+    assert!(html.contains(&note));
+    // The page's data can be read again.
+    let page = parse(element(&html, "fastphong-data")).unwrap();
+    assert_eq!(
+        page["comparisons"][0]["rows"][0]["speed"]["ratio_to_naive"]["typical"],
+        1.25
+    );
 }

@@ -1,0 +1,340 @@
+//! The summary of a run: what every method gets wrong and how fast it is, in a few kilobytes.
+//!
+//! Every answer is made from a summary, so all places give one answer to one run.
+//! `report/quiet.json` holds the summary of a run on a quiet machine.
+
+use super::document::{list, number, text, title};
+use crate::compare::timing::Ratio;
+use alloc::format;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+/// The errors and the speeds of all methods in one run.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Summary {
+    /// The machine.
+    pub machine: Computer,
+    /// The day, as [`super::utc_date`] writes it.
+    pub date: Option<String>,
+    /// The command line as typed, with the program first.
+    pub command_line: Vec<String>,
+    /// The count of scenes.
+    pub scenes: usize,
+    /// The methods that were drawn by scanlines in all scenes, in the order of the document.
+    pub methods: Vec<MethodError>,
+    /// Whole frames in scalar code; `None` if they were not drawn.
+    pub scalar: Option<Speeds>,
+    /// Whole frames with SIMD: the scenes, if they were drawn with SIMD, otherwise the sphere of
+    /// the experiment `speedups`. `None` if neither was drawn.
+    pub simd: Option<Speeds>,
+}
+
+/// The machine and the build of a run.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Computer {
+    /// The processor.
+    pub cpu: String,
+    /// The operating system.
+    pub os: String,
+    /// The architecture.
+    pub arch: String,
+    /// The compiler.
+    pub rustc: String,
+    /// The profile of the build. Times of others than `release` say nothing.
+    pub profile: String,
+}
+
+/// The largest error of a method.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct MethodError {
+    /// The variant.
+    pub variant: String,
+    /// The largest error in any scene, in grey levels.
+    pub levels: f64,
+    /// The title of the scene with this error.
+    pub scene: String,
+    /// The index of that scene.
+    #[serde(skip)]
+    pub place: usize,
+}
+
+/// The speeds of methods in one kind of code.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Speeds {
+    /// The instruction set.
+    pub level: String,
+    /// The frames: `over 22 scenes`, `in this scene`, `on one sphere`.
+    pub frames: String,
+    /// The reason why the speeds are withheld, as a sentence, if the machine was too busy.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub too_busy: Option<String>,
+    /// The methods that were timed in all frames.
+    pub methods: Vec<MethodSpeed>,
+}
+
+/// The speed of a method, and the error that decides whether it draws naive Phong's picture.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+pub struct MethodSpeed {
+    /// The variant.
+    pub variant: String,
+    /// The largest error in grey levels: in any scene, or for a method without scenes on the
+    /// experiment's sphere.
+    pub levels: f64,
+    /// The speed.
+    #[serde(flatten)]
+    pub speed: Speed,
+}
+
+/// A speed as a multiple of naive Phong's: the geometric means of typical values and of the ends of
+/// intervals over all frames.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+pub struct Speed {
+    /// The typical value.
+    pub typical: f64,
+    /// The lower end of the interval.
+    pub low: f64,
+    /// The upper end of the interval.
+    pub high: f64,
+    /// True if it is not known whether the method is faster or slower. A wider interval than
+    /// `low..=high` decides.
+    pub tie: bool,
+}
+
+impl Summary {
+    /// Summarises a document.
+    pub fn of(data: &Value) -> Summary {
+        let scenes: Vec<&Value> = list(data, "/comparisons").iter().collect();
+        let methods = errors(&scenes);
+        let level = |scene: &Value| text(scene, "/renderer/level").to_string();
+        let mut levels = scenes.iter().map(|scene| level(scene));
+        let wide = levels.find(|level| level != SCALAR);
+        let drawn_in = |code: &str| {
+            let those = scenes.iter().filter(|scene| level(scene) == code);
+            let those: Vec<&Value> = those.copied().collect();
+            (!those.is_empty()).then(|| of_scenes(&those, code, &methods))
+        };
+        let m = |field: &str| text(&data["machine"], field).to_string();
+        let words = list(data, "/command_line").iter();
+        Summary {
+            machine: Computer {
+                cpu: m("/cpu"),
+                os: m("/os"),
+                arch: m("/arch"),
+                rustc: m("/rustc"),
+                profile: m("/profile"),
+            },
+            date: data["date"].as_str().map(String::from),
+            command_line: words.map(|word| text(word, "").to_string()).collect(),
+            scenes: scenes.len(),
+            scalar: drawn_in(SCALAR),
+            simd: wide
+                .and_then(|level| drawn_in(&level))
+                .or_else(|| of_speedups(&data["speedups"], &methods)),
+            methods,
+        }
+    }
+}
+
+impl Summary {
+    /// True if the program was built with optimisation. Otherwise its times say nothing.
+    pub(super) fn is_optimised(&self) -> bool {
+        self.machine.profile == "release"
+    }
+}
+
+/// The instruction set without SIMD.
+pub(super) const SCALAR: &str = "scalar";
+
+/// Returns the largest errors of all methods that were drawn in all scenes.
+fn errors(scenes: &[&Value]) -> Vec<MethodError> {
+    let names = names(scenes).map(|name| {
+        let found = scenes.iter().enumerate().map(|(place, scene)| {
+            let levels = 255.0 * number(row(scene, name)?, "/error/max")?;
+            Some((place, levels))
+        });
+        let found: Option<Vec<(usize, f64)>> = found.collect();
+        let (place, levels) = found?.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(MethodError {
+            variant: name.to_string(),
+            levels,
+            scene: title(scenes[place]).to_string(),
+            place,
+        })
+    });
+    names.flatten().collect()
+}
+
+fn names<'a>(scenes: &[&'a Value]) -> impl Iterator<Item = &'a str> {
+    let rows = scenes.first().map_or(&[][..], |scene| list(scene, "/rows"));
+    rows.iter().map(|row| text(row, "/variant"))
+}
+
+fn row<'a>(scene: &'a Value, name: &str) -> Option<&'a Value> {
+    let mut rows = list(scene, "/rows").iter();
+    rows.find(|row| text(row, "/variant") == name)
+}
+
+/// Summarises the speeds of scenes, which were drawn in one kind of code.
+pub(super) fn of_scenes(scenes: &[&Value], level: &str, errors: &[MethodError]) -> Speeds {
+    let methods = errors.iter().filter_map(|error| {
+        let speed =
+            |scene: &&Value| Speed::of(&row(scene, &error.variant)?["speed"]["ratio_to_naive"]);
+        let speeds: Option<Vec<Speed>> = scenes.iter().map(speed).collect();
+        Some(MethodSpeed {
+            variant: error.variant.clone(),
+            levels: error.levels,
+            speed: Speed::mean(&speeds?),
+        })
+    });
+    Speeds {
+        level: level.to_string(),
+        frames: match scenes.len() {
+            1 => "in this scene".to_string(),
+            count => format!("over {count} scenes"),
+        },
+        too_busy: too_busy(scenes.iter().map(|scene| &scene["noise"])),
+        methods: methods.collect(),
+    }
+}
+
+/// Summarises the corner of whole frames with SIMD.
+///
+/// The pictures of all scenes decide whether a method draws naive Phong's picture. For a method
+/// that was not drawn there, the experiment's sphere decides.
+fn of_speedups(speedups: &Value, errors: &[MethodError]) -> Option<Speeds> {
+    let is_it =
+        |c: &Value| c["work"] == "frame" && c["scalar"] == false && text(c, "/level") != SCALAR;
+    let corner = list(speedups, "/corners").iter().position(is_it)?;
+    let methods = list(speedups, "/methods").iter().filter_map(|method| {
+        let variant = text(method, "/method").to_string();
+        let drawn = errors.iter().find(|error| error.variant == variant);
+        let on_sphere = || number(method, "/levels_off");
+        Some(MethodSpeed {
+            levels: drawn.map(|error| error.levels).or_else(on_sphere)?,
+            speed: Speed::of(&method["corners"][corner]["ratio_to_naive"])?,
+            variant,
+        })
+    });
+    Some(Speeds {
+        level: text(&speedups["corners"][corner], "/level").to_string(),
+        frames: "on one sphere".to_string(),
+        too_busy: too_busy([&speedups["noise"]].into_iter()),
+        methods: methods.collect(),
+    })
+}
+
+/// True if the speeds of frames with this noise are to be withheld.
+pub(super) fn is_too_busy(noise: &Value) -> bool {
+    noise["trust"] == "too-busy"
+}
+
+/// Says that the machine was too busy in some of the frames with these noises. Returns `None` if it
+/// was not.
+fn too_busy<'a>(noises: impl Iterator<Item = &'a Value>) -> Option<String> {
+    let interrupted = |noise: &Value| number(noise, "/interrupted").unwrap_or(0.0);
+    let worst = noises
+        .filter(|noise| is_too_busy(noise))
+        .max_by(|a, b| interrupted(a).total_cmp(&interrupted(b)))?;
+    let share = 100.0 * interrupted(worst);
+    Some(if worst["clock"] == "thread" && share >= 5.0 {
+        format!("Too busy to tell: {share:.0}\u{A0}% of the samples were interrupted.")
+    } else {
+        // Too few rounds, or threads that had no processor: the document says more.
+        let sentence = text(worst, "/sentence");
+        let mut letters = sentence.chars();
+        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+        let capitalised: String = first.into_iter().chain(letters).collect();
+        format!("{capitalised}.")
+    })
+}
+
+impl Speed {
+    /// Reads a ratio of a document.
+    pub(super) fn of(ratio: &Value) -> Option<Speed> {
+        Some(Speed {
+            typical: number(ratio, "/typical")?,
+            low: number(ratio, "/low")?,
+            high: number(ratio, "/high")?,
+            tie: ratio["tie"] == true,
+        })
+    }
+
+    /// Returns the geometric means of speeds, which are at least one.
+    pub fn mean(speeds: &[Speed]) -> Speed {
+        if let [one] = speeds {
+            return *one;
+        }
+        let mean = |value: fn(&Speed) -> f64| {
+            let sum: f64 = speeds.iter().map(|speed| libm::log(value(speed))).sum();
+            libm::exp(sum / speeds.len() as f64)
+        };
+        Ratio::new(
+            mean(|speed| speed.low),
+            mean(|speed| speed.typical),
+            mean(|speed| speed.high),
+        )
+        .into()
+    }
+
+    /// True if the method is faster than naive Phong beyond doubt.
+    pub(super) fn is_faster(&self) -> bool {
+        self.low > 1.0 && !self.tie
+    }
+
+    /// Says in a word whether the method is faster than naive Phong.
+    pub(super) fn word(&self) -> &'static str {
+        match self {
+            speed if speed.is_faster() => "faster",
+            Speed { high, tie, .. } if *high < 1.0 && !tie => "slower",
+            _ => "tie",
+        }
+    }
+
+    /// Writes the typical value with the digits that are known: see [`Ratio::known`].
+    pub fn known(&self) -> Option<String> {
+        let Speed {
+            typical,
+            low,
+            high,
+            tie,
+        } = *self;
+        let ratio = Ratio {
+            typical,
+            low,
+            high,
+            tie,
+        };
+        ratio.known()
+    }
+
+    /// Returns the value and its interval for a table. A `=` before them says that it is a tie.
+    pub fn cell(&self) -> String {
+        let Speed { low, high, tie, .. } = *self;
+        let known = self.known().unwrap_or_else(|| "–".to_string());
+        // Naive Phong against itself has no interval.
+        if low == high {
+            return known;
+        }
+        let tie = if tie { "= " } else { "" };
+        format!("{tie}{known} ({low:.2}–{high:.2})")
+    }
+}
+
+impl From<Ratio> for Speed {
+    fn from(ratio: Ratio) -> Speed {
+        let Ratio {
+            typical,
+            low,
+            high,
+            tie,
+        } = ratio;
+        Speed {
+            typical,
+            low,
+            high,
+            tie,
+        }
+    }
+}
