@@ -359,7 +359,7 @@ fn html_lines(by: &str, said: &Said) -> String {
         let (known, low, high) = (speed.known(), speed.low, speed.high);
         let known = known.map_or_else(|| "–".into(), |known| format!("{known}\u{A0}×"));
         format!(
-            "<span>{name}</span><span class=\"worth\">{known} ({low:.2}–{high:.2}) <b class=\"{tone}\">{word}</b></span>\
+            "<span>{name}</span><span>{known} ({low:.2}–{high:.2}) <b class=\"{tone}\">{word}</b></span>\
              <span class=\"gain {tone}\" aria-hidden=\"true\">{bar}</span>"
         )
     };

@@ -317,8 +317,8 @@ fn the_quiet_run_stands_beside_this_one() {
     for text in [
         "<small>This run</small>",
         "<small>A quiet Calm &lt;CPU&gt;, 2026-12-01</small>",
-        "<span class=\"worth\">1.2\u{A0}× (1.22–1.28) <b class=\"good\">faster</b></span>",
-        "<span class=\"worth\">1.3\u{A0}× (1.30–1.36) <b class=\"good\">faster</b></span>",
+        "<span>1.2\u{A0}× (1.22–1.28) <b class=\"good\">faster</b></span>",
+        "<span>1.3\u{A0}× (1.30–1.36) <b class=\"good\">faster</b></span>",
         // No study here, so only the quiet run speaks of SIMD.
         "<h2>SIMD</h2><div class=\"gains\"><small>A quiet Calm &lt;CPU&gt; with AVX2, 2026-12-01</small>",
     ] {
