@@ -88,7 +88,7 @@ fn experiments_stand_in_the_page_on_request() {
     let made = data(&html);
     assert!(made["speedups"]["corners"].is_array() && made["scaling"].is_null());
     assert!(html.contains("<h2>The picture</h2><p>"));
-    assert!(html.contains("<h2>Scalar code</h2><p class=\"answer\">"));
+    assert!(html.contains("<h2>Scalar code</h2><div class=\"answer\"><p>"));
     let text = page(&folder, "README.md");
     assert!(text.contains("frame, scalar, 1 light"), "{text}");
     folder

@@ -49,7 +49,11 @@ struct Card {
 struct Said {
     /// The name of the instruction set, empty for scalar code and for pictures.
     level: String,
+    /// The frames that were timed: see [`Speeds::frames`].
+    frames: String,
     sentences: Vec<Part>,
+    /// The speeds in words, for places without bars.
+    speeds: Vec<Part>,
     /// Methods with their speeds, for lines with bars.
     bars: Vec<(Vec<Part>, Speed)>,
 }
@@ -201,8 +205,8 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
             "avx512" => "AVX-512".into(),
             level => level.to_uppercase(),
         },
-        sentences: Vec::new(),
-        bars: Vec::new(),
+        frames: speeds.frames.clone(),
+        ..Said::default()
     };
     if let Some(why) = &speeds.too_busy {
         said.sentences.push(plain(why));
@@ -226,15 +230,16 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
         said.sentences.push(plain(text));
         said.sentences.extend(names.clone());
         if others.is_empty() {
-            said.sentences.push(plain(": "));
+            said.sentences.push(plain("."));
+            said.speeds.push(plain(" It is "));
         } else {
+            said.sentences.push(plain(", which are tied."));
             let name = Part::Method(best.variant.clone());
-            let tied = plain(", which are tied: ");
-            said.sentences.extend([tied, name, plain(" is ")]);
+            said.speeds.extend([plain(" "), name, plain(" is ")]);
         }
-        said.sentences.extend(times(&best.speed));
+        said.speeds.extend(times(&best.speed));
         let text = format!(" as fast as naive Phong {frames}.");
-        said.sentences.push(Part::Text(text));
+        said.speeds.push(Part::Text(text));
         said.bars.push((names, best.speed));
     } else if let Some(best) = best {
         let nothing = plain("For naive Phong’s picture, nothing is faster than ");
@@ -257,10 +262,9 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
             word => format!(" is {word} than naive Phong: "),
         };
         let lecture = plain(" The lecture’s ");
-        said.sentences
-            .extend([lecture, name.clone(), Part::Text(is)]);
-        said.sentences.extend(times(&fast.speed));
-        said.sentences.push(plain("."));
+        said.speeds.extend([lecture, name.clone(), Part::Text(is)]);
+        said.speeds.extend(times(&fast.speed));
+        said.speeds.push(plain("."));
         said.bars.push(([name].into(), fast.speed));
     }
     said
@@ -318,39 +322,35 @@ pub(super) fn html(data: &Value, quiet: &Summary) -> String {
     }
     let cards = cards(&own, Some(quiet)).into_iter().map(|card| {
         let mut html = format!("<h2>{}</h2>", card.head);
-        // The script marks the methods that an answer on speeds names.
-        let class = if card.head == PICTURE {
-            ""
-        } else {
-            " class=\"answer\""
-        };
-        let (mut lines, sentences) = (String::new(), card.own.iter().map(|said| &said.sentences));
-        html.extend(sentences.map(|parts| format!("<p{class}>{}</p>", html_parts(parts))));
         if let Some(said) = &card.own {
-            let level = if said.level.is_empty() { "" } else { ", " };
-            lines += &html_lines(&format!("This run{level}{}", said.level), said);
+            let own = format!("<p>{}</p>", html_parts(&said.sentences, true));
+            // The script marks the methods that an answer on speeds names.
+            html += &if card.head == PICTURE {
+                own
+            } else {
+                let level = if said.level.is_empty() { "" } else { ", " };
+                let by = format!("This run {}{level}{}", said.frames, said.level);
+                let lines = html_lines(&by, said, true);
+                format!("<div class=\"answer\">{own}{lines}</div>")
+            };
         }
         if let Some(said) = &card.quiet {
-            lines += &html_lines(&format!("A {}", place(quiet, said)), said);
-        }
-        if !lines.is_empty() {
-            html += &format!("<div class=\"gains\">{lines}{SCALE}</div>");
+            let by = format!("A {}, {}", place(quiet, said), said.frames);
+            html += &html_lines(&by, said, false);
         }
         format!("<article class=\"card\">{html}</article>")
     });
     format!("<div class=\"cards\">{}</div>", cards.collect::<String>())
 }
 
-/// The scale under the bars.
-const SCALE: &str = "<span class=\"ends\" aria-hidden=\"true\"><i>0.5</i><i>1</i><i>2 ×</i></span>";
-
-/// Writes a line for each speed of a run: method, bar, value, word. Returns nothing without speeds.
-fn html_lines(by: &str, said: &Said) -> String {
+/// Writes the speeds of a run: for each method its bar, value and word, then the scale. Returns
+/// nothing without speeds. Methods are links if `is_here`: the page has them.
+fn html_lines(by: &str, said: &Said, is_here: bool) -> String {
     if said.bars.is_empty() {
         return String::new();
     }
     let line = |(name, speed): &(Vec<Part>, Speed)| {
-        let (name, word, bar) = (html_parts(name), speed.word(), bar(speed));
+        let (name, word, bar) = (html_parts(name, is_here), speed.word(), bar(speed));
         let tone = match word {
             "faster" => "good",
             "slower" => "bad",
@@ -364,7 +364,9 @@ fn html_lines(by: &str, said: &Said) -> String {
         )
     };
     let lines: String = said.bars.iter().map(line).collect();
-    format!("<small>{}</small>{lines}", html_text(by))
+    let scale = "<span class=\"ends\" aria-hidden=\"true\"><i>0.5</i><i>1</i><i>2 ×</i></span>";
+    let by = html_text(by);
+    format!("<div class=\"gains\"><small>{by}</small>{lines}{scale}</div>")
 }
 
 /// Draws an interval on a logarithmic scale from 0.5 to 2. Arrows say that it goes on.
@@ -384,11 +386,12 @@ fn bar(speed: &Speed) -> String {
     [left, &line, right].concat()
 }
 
-/// Writes a sentence as HTML. Methods and scenes are links.
-fn html_parts(parts: &[Part]) -> String {
+/// Writes a sentence as HTML. Scenes are links, and methods are if `is_here`.
+fn html_parts(parts: &[Part], is_here: bool) -> String {
     let part = |part: &Part| match part {
         Part::Text(text) => html_text(text),
         Part::Strong(text) => format!("<b>{}</b>", html_text(text)),
+        Part::Method(name) if !is_here => html_text(&label(name)),
         Part::Method(name) => {
             let (name, label) = (html_text(name), html_text(&label(name)));
             format!("<a class=\"m\" data-m=\"{name}\" href=\"#methods/{name}\">{label}</a>")
@@ -456,7 +459,8 @@ fn words(said: &Said, text: fn(&str) -> String, method: fn(&str) -> String) -> S
         Part::Text(words) | Part::Strong(words) | Part::Scene(_, words, _) => text(words),
         Part::Method(name) => method(name),
     };
-    said.sentences.iter().map(part).collect()
+    let parts = said.sentences.iter().chain(&said.speeds);
+    parts.map(part).collect()
 }
 
 #[cfg(test)]

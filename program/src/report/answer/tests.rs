@@ -71,7 +71,7 @@ fn the_fastest_method_with_the_picture_is_named_with_its_interval() {
     ];
     assert_eq!(
         scalar(&rows),
-        "For naive Phong’s picture in the least time, use `duff-phong`: 1.2 × (1.22 to 1.28) as fast as naive Phong in this scene. \
+        "For naive Phong’s picture in the least time, use `duff-phong`. It is 1.2 × (1.22 to 1.28) as fast as naive Phong in this scene. \
          The lecture’s `fast-phong` is slower than naive Phong: 0.90 × (0.88 to 0.92)."
     );
 }
@@ -82,7 +82,7 @@ fn two_methods_that_intervals_do_not_separate_are_a_tie() {
         ("phong-rsqrt", [1.05, 1.10, 1.15], 0.1),
         ("duff-phong", [1.12, 1.25, 1.38], 0.2),
     ]);
-    let expected = "use `duff-phong` or `phong-rsqrt`, which are tied: `duff-phong` is about 1.2 × (1.12 to 1.38) as fast";
+    let expected = "use `duff-phong` or `phong-rsqrt`, which are tied. `duff-phong` is about 1.2 × (1.12 to 1.38) as fast";
     assert!(text.contains(expected), "{text}");
 }
 
@@ -95,7 +95,7 @@ fn of_four_tied_methods_two_are_named() {
         ("duff-phong", [1.12, 1.25, 1.38], 0.2),
         ("eye-frame-phong", [1.01, 1.03, 1.05], 0.2),
     ]);
-    let expected = "use `duff-phong`, `series-phong` or 2 more, which are tied: `duff-phong` is";
+    let expected = "use `duff-phong`, `series-phong` or 2 more, which are tied. `duff-phong` is";
     assert!(text.contains(expected), "{text}");
 }
 
@@ -115,7 +115,7 @@ fn nothing_is_called_faster_whose_interval_contains_one() {
         ("duff-phong", [0.96, 1.25, 1.6], 0.2),
         ("phong-rsqrt", [1.08, 1.1, 1.12], 0.2),
     ]);
-    let expected = "use `phong-rsqrt` or `duff-phong`, which are tied: `phong-rsqrt` is 1.1 ×";
+    let expected = "use `phong-rsqrt` or `duff-phong`, which are tied. `phong-rsqrt` is 1.1 ×";
     assert!(text.contains(expected), "{text}");
     // The interval for `tie` is wider than the one that is shown.
     let text = scalar(&[("duff-phong", [1.01, 1.1, 1.2], 0.2)]);
@@ -206,7 +206,7 @@ fn pictures_of_all_scenes_decide_for_simd_too() {
     let text = said(&data, "SIMD, AVX2");
     assert!(
         text.contains(
-            "use `phong-rsqrt`: 1.5 × (1.44 to 1.56) as fast as naive Phong on one sphere."
+            "use `phong-rsqrt`. It is 1.5 × (1.44 to 1.56) as fast as naive Phong on one sphere."
         ),
         "{text}"
     );
@@ -217,7 +217,8 @@ fn pictures_of_all_scenes_decide_for_simd_too() {
     // Scenes that were drawn with SIMD say more than one sphere.
     data["comparisons"][0] = scene("A", "avx512", &rows);
     let text = said(&data, "SIMD, AVX-512");
-    let expected = "use `phong-rsqrt`: 1.1 × (1.10 to 1.20) as fast as naive Phong in this scene";
+    let expected =
+        "use `phong-rsqrt`. It is 1.1 × (1.10 to 1.20) as fast as naive Phong in this scene";
     assert!(text.contains(expected), "{text}");
     assert_eq!(Summary::of(&data).scalar, None);
 }
@@ -315,20 +316,20 @@ fn the_quiet_run_stands_beside_this_one() {
     )]);
     let html = html(&own, &beside);
     for text in [
-        "<small>This run</small>",
-        "<small>A quiet Calm &lt;CPU&gt;, 2026-12-01</small>",
+        "<small>This run in this scene</small>",
+        "<small>A quiet Calm &lt;CPU&gt;, 2026-12-01, in this scene</small>",
         "<span>1.2\u{A0}× (1.22–1.28) <b class=\"good\">faster</b></span>",
         "<span>1.3\u{A0}× (1.30–1.36) <b class=\"good\">faster</b></span>",
         // No study here, so only the quiet run speaks of SIMD.
-        "<h2>SIMD</h2><div class=\"gains\"><small>A quiet Calm &lt;CPU&gt; with AVX2, 2026-12-01</small>",
+        "<h2>SIMD</h2><div class=\"gains\"><small>A quiet Calm &lt;CPU&gt; with AVX2, 2026-12-01, on one sphere</small>",
     ] {
         assert!(html.contains(text), "{text}: {html}");
     }
-    let answer = "<p class=\"answer\">For naive Phong’s picture in the least time, use <a class=\"m\" data-m=\"duff-phong\"";
+    let answer = "<div class=\"answer\"><p>For naive Phong’s picture in the least time, use <a class=\"m\" data-m=\"duff-phong\"";
     assert!(html.contains(answer), "{html}");
     let points = markdown(&own, &beside);
     let scalar = &points[1].1;
-    let quiet = "On a quiet Calm &lt;CPU>, 2026-12-01: For naive Phong’s picture in the least time, use Phong rsqrt: ";
+    let quiet = "On a quiet Calm &lt;CPU>, 2026-12-01: For naive Phong’s picture in the least time, use Phong rsqrt. It is ";
     assert!(scalar.contains(quiet), "{scalar}");
     assert!(
         points[2].1.starts_with("On a quiet Calm"),
