@@ -36,8 +36,8 @@ pub struct Noise {
     pub sentence: String,
 }
 
-/// The largest median doubt with which a table says something, and that of a quiet machine, which is
-/// what ends a run early.
+/// The largest median doubt with which a table says something, and that of a quiet machine, which
+/// is what ends a run early.
 const MOST_DOUBT: f64 = 0.05;
 const QUIET_DOUBT: f64 = 0.025;
 
