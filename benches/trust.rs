@@ -255,8 +255,8 @@ struct Others(Vec<Child>);
 
 impl Others {
     /// Starts processes, each in a session of its own if `setsid` is there: Linux shares processors
-    /// fairly between sessions, so that each weighs as much as the benchmark. They end by themselves
-    /// after some seconds if nobody ends them.
+    /// fairly between sessions, so that each weighs as much as the benchmark. They end by
+    /// themselves after some seconds if nobody ends them.
     fn start(load: Load, count: usize, seconds: usize) -> Others {
         let own = std::env::current_exe().expect("the path of this program");
         let start = |_| {

@@ -1,5 +1,5 @@
-//! The clock of `fastphong bench` as criterion's: the thread's own processor time, which stands still
-//! while other programs run; on several threads the time that passed.
+//! The clock of `fastphong bench` as criterion's: the thread's own processor time, which stands
+//! still while other programs run; on several threads the time that passed.
 
 use criterion::Criterion;
 use criterion::measurement::{Measurement, ValueFormatter, WallTime};

@@ -26,7 +26,7 @@ const COLUMNS = [
 	["ns", "ns per pixel"],
 	["ratio", "speed, × naive Phong", 1],
 	["barycentric", "× barycentric"],
-	["work", "work, × naive Phong", 1],
+	["work", "× naive Phong by work", 1],
 ];
 
 /* Columns in which larger is better. */

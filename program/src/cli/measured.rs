@@ -98,8 +98,8 @@ pub struct TimingFlags {
     /// `all`; naive-phong is always included
     #[arg(short, long, visible_alias = "method", value_name = "METHODS", default_value = "default", value_parser = methods)]
     pub methods: Methods,
-    /// Seconds of timing per scene, at most: it ends when every ratio is known to 2.5 %. There are at
-    /// least three rounds
+    /// Seconds of timing per scene, at most: it ends when every ratio is known to 2.5 %. There are
+    /// at least three rounds
     #[arg(long, value_name = "SECONDS", default_value = "2", value_parser = seconds, allow_hyphen_values = true)]
     pub time_budget: Duration,
 }

@@ -399,7 +399,7 @@ impl ReportArgs {
     ) -> Result<(), CliError> {
         let is_long = self.full || index < TIMED_LONG;
         let limits = TimeLimits {
-            time_budget: self.timing.time_budget / if is_long { 1 } else { 10 },
+            time_budget: self.timing.time_budget / if is_long { 1 } else { 5 },
             warm_up_rounds: 1,
             ..TimeLimits::default()
         };

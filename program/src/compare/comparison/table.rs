@@ -54,7 +54,7 @@ const INTERVAL: &str = "95 %";
 /// The columns that say nothing where the machine was too busy.
 const SPEED: [&str; 5] = [TIME.0, PER_PIXEL.0, NAIVE.0, BARYCENTRIC.0, INTERVAL];
 /// The ratio of the work of all threads, where the machine was too busy to tell speeds.
-const WORK: Column = ("work, × naive-phong", |row| {
+const WORK: Column = ("× naive by work", |row| {
     ratio(&row.speed.as_ref()?.work_to_naive?)
 });
 

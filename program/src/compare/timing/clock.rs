@@ -10,8 +10,8 @@ pub struct Moment {
     /// The time that the thread had a processor, or all threads of the process together; the time
     /// that passed, where the system does not say.
     pub own: u64,
-    /// The time that threads waited for a processor, summed over several threads; 0 where the system
-    /// does not say, and for one thread, whose waiting is `passed` less `own`.
+    /// The time that threads waited for a processor, summed over several threads; 0 where the
+    /// system does not say, and for one thread, whose waiting is `passed` less `own`.
     pub waited: u64,
 }
 
@@ -49,7 +49,8 @@ impl Clock {
         target_os = "freebsd"
     ));
 
-    /// Starts the clocks for work of the calling thread, if `threads` is 1, or of the whole process.
+    /// Starts the clocks for work of the calling thread, if `threads` is 1, or of the whole
+    /// process.
     pub fn new(threads: usize) -> Clock {
         Clock {
             started: Instant::now(),

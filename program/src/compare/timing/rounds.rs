@@ -25,7 +25,8 @@ pub struct TimeLimits {
 }
 
 impl TimeLimits {
-    /// The smallest number of rounds, whatever the limits. Most candidates have two samples in each.
+    /// The smallest number of rounds, whatever the limits. Most candidates have two samples in
+    /// each.
     pub const LEAST_ROUNDS: usize = 3;
 }
 
@@ -54,10 +55,11 @@ const KNOWN: f64 = 0.025;
 /// Times all candidates in rounds, for at least [`TimeLimits::LEAST_ROUNDS`] of them, until one of
 /// the limits is reached or all `ratios` are known: pairs of a baseline and a candidate.
 ///
-/// Every round takes the candidates in another random order. (A fixed order falls into step with the
-/// system's time slices, and always the same candidate is interrupted.) Each is sampled twice in a
-/// row, because the first sample finds the caches full of another's data; long ones, which lose
-/// little by that, once. A candidate too short for the clock is called several times per sample.
+/// Every round takes the candidates in another random order. (A fixed order falls into step with
+/// the system's time slices, and always the same candidate is interrupted.) Each is sampled twice
+/// in a row, because the first sample finds the caches full of another's data; long ones, which
+/// lose little by that, once. A candidate too short for the clock is called several times per
+/// sample.
 ///
 /// Calls `progress` between rounds with the used part of the limits, 0..=1. The time that it takes
 /// does not count.

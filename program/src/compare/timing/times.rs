@@ -2,19 +2,15 @@
 
 use super::clock::Clock;
 use super::interruptions::{Cost, Sample, cost};
-use super::statistics::{Ratio, Timing, quantile};
+use super::statistics::{Ratio, TYPICAL, Timing, quantile};
 use super::trust::Noise;
 use crate::split_mix::SplitMix;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::cell::OnceCell;
 
-/// The quantile of its samples that stands for a candidate. Noise only adds time. Of few samples
-/// this is about the mean of the least two, and of many it does not hang on the luckiest.
-pub const TYPICAL: f64 = 0.1;
-
-/// The number of resamples of the bootstrap of finished times. 2,000 leave 50 beyond each end of a 95 % interval; Efron
-/// & Tibshirani (1993, 12.3) ask for at least 1,000.
+/// The number of resamples of the bootstrap of finished times. 2,000 leave 50 beyond each end of a
+/// 95 % interval; Efron & Tibshirani (1993, 12.3) ask for at least 1,000.
 pub const RESAMPLES: usize = 2_000;
 
 /// The number of resamples that decide if a run goes on.
@@ -182,8 +178,8 @@ impl Times {
         )
     }
 
-    /// Says how far these ratios, pairs of a baseline and a candidate, can be trusted; all times, if
-    /// there are no ratios.
+    /// Says how far these ratios, pairs of a baseline and a candidate, can be trusted; all times,
+    /// if there are no ratios.
     pub fn noise(&self, ratios: &[(usize, usize)]) -> Noise {
         let others = ratios
             .iter()

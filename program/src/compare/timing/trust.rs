@@ -13,7 +13,7 @@ pub enum Trust {
     Quiet,
     /// Other programs ran, and ratios are known all the same.
     Busy,
-    /// Ratios are not known.
+    /// Ratios are not known, because of other programs or of something else.
     TooBusy,
 }
 
@@ -36,10 +36,8 @@ pub struct Noise {
     pub sentence: String,
 }
 
-/// The largest median doubt with which a table says something, and that of a quiet machine, which is
-/// what ends a run early.
+/// The largest median doubt with which a table says something.
 const MOST_DOUBT: f64 = 0.05;
-const QUIET_DOUBT: f64 = 0.025;
 
 /// The largest part of interrupted samples on a quiet machine.
 const QUIET_INTERRUPTED: f64 = 0.05;
@@ -55,7 +53,7 @@ impl Noise {
         let is_lost = !clock.is_own() && interrupted > MOST_INTERRUPTED;
         let trust = if doubt > MOST_DOUBT || is_lost {
             Trust::TooBusy
-        } else if interrupted <= QUIET_INTERRUPTED && doubt <= QUIET_DOUBT {
+        } else if interrupted <= QUIET_INTERRUPTED {
             Trust::Quiet
         } else {
             Trust::Busy
@@ -74,9 +72,14 @@ impl Noise {
             Trust::TooBusy if threads > 1 => {
                 format!("too busy to tell on {threads} threads: {share}; --threads 1 can")
             }
-            Trust::TooBusy => format!(
-                "too busy to tell: {doubt_text}. Run again with five times the --time-budget, or on an idle machine"
-            ),
+            Trust::TooBusy => {
+                let is_noise = interrupted <= QUIET_INTERRUPTED;
+                let word = if is_noise { "noisy" } else { "busy" };
+                format!(
+                    "too {word} to tell: {doubt_text}. Run again with five times the --time-budget, \
+                     or on an idle machine"
+                )
+            }
         };
         Noise {
             trust,
@@ -122,9 +125,12 @@ mod tests {
         let (lost, text) = said(2, 0.97, 0.026);
         assert_eq!(lost, Trust::TooBusy, "the lowest tenth may be interrupted");
         assert!(text.starts_with("too busy to tell on 2 threads: 97 % of the samples"));
-        let (noisy, text) = said(1, 0.0, 0.12);
-        assert_eq!(noisy, Trust::TooBusy);
-        assert!(text.starts_with("too busy to tell: ± 12 %. Run again with five times"));
+        for (interrupted, word) in [(0.0, "noisy"), (0.5, "busy")] {
+            let (trust, text) = said(1, interrupted, 0.12);
+            assert_eq!(trust, Trust::TooBusy);
+            let expected = format!("too {word} to tell: ± 12 %. Run again with five times");
+            assert!(text.starts_with(&expected), "{text}");
+        }
         if Clock::HAS_OWN {
             let (busy, text) = said(1, 0.97, 0.026);
             assert_eq!(busy, Trust::Busy);
