@@ -10,8 +10,9 @@ use fastphong::raster::Renderer;
 use fastphong::reference::{self, Model};
 use fastphong::shading::{Family, METHODS, MethodRow, Tier, Variant};
 use fastphong_cli::compare::experiments::WorstCase;
+use fastphong_cli::compare::timing::Ratio;
 use fastphong_cli::lectures::{Figure, FigureBlock, FigureContent, Panel};
-use fastphong_cli::report::{MethodError, Speed, Summary, parse, sentences};
+use fastphong_cli::report::{MethodError, Summary, parse, sentences};
 use serde_json::Value;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -162,7 +163,7 @@ fn errors(lights: u64) -> ByMethod {
 }
 
 /// Returns, for each mesh, the speed of the fastest method that shades nothing at a pixel.
-fn cheapest(speeds: &Speeds) -> [Speed; 4] {
+fn cheapest(speeds: &Speeds) -> [Ratio; 4] {
     let infos = METHODS.iter().map(|entry| entry.info);
     let colours = infos.filter(|info| info.family == Family::Colours);
     let all: Vec<_> = colours.filter_map(|info| speeds.get(info.name)).collect();
@@ -179,12 +180,12 @@ fn mean(ratios: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Speeds as multiples of naive Phong's by the name of a method, one for each mesh.
-type Speeds = BTreeMap<String, [Speed; 4]>;
+type Speeds = BTreeMap<String, [Ratio; 4]>;
 
 /// Returns the speeds of frames.
 fn speeds(name: &str) -> Speeds {
     let [times, low, high] = ["times", "low", "high"].map(|key| measured(name, key));
-    let of_mesh = |method: &str, mesh: usize| Speed {
+    let of_mesh = |method: &str, mesh: usize| Ratio {
         typical: 1.0 / times[method][mesh],
         low: low[method][mesh],
         high: high[method][mesh],
@@ -205,10 +206,10 @@ fn speeds(name: &str) -> Speeds {
 ///
 /// Relative deviations of independent factors add up as squares. These factors share naive Phong's
 /// times, so that the interval is rather too wide.
-fn quotient(method: Speed, over: Speed) -> Speed {
+fn quotient(method: Ratio, over: Ratio) -> Ratio {
     let typical = method.typical / over.typical;
     let wider = |one: f64, other: f64| one.ln().hypot(other.ln()).exp();
-    Speed {
+    Ratio {
         typical,
         low: typical / wider(method.typical / method.low, over.high / over.typical),
         high: typical * wider(method.high / method.typical, over.typical / over.low),
@@ -218,13 +219,13 @@ fn quotient(method: Speed, over: Speed) -> Speed {
 
 /// Returns how many times as fast a method is as the method `over`: the geometric mean over the
 /// four meshes.
-fn speed(speeds: &Speeds, method: &str, over: &str) -> Speed {
+fn speed(speeds: &Speeds, method: &str, over: &str) -> Ratio {
     let quotients = [0, 1, 2, 3].map(|mesh| quotient(speeds[method][mesh], speeds[over][mesh]));
-    Speed::mean(&quotients)
+    Ratio::mean(&quotients)
 }
 
 /// Writes a speed with the digits that its interval separates, for a table.
-fn known(speed: Speed) -> String {
+fn known(speed: Ratio) -> String {
     speed.known().unwrap_or_else(|| "–".into())
 }
 
@@ -546,7 +547,7 @@ fn claims() -> String {
     let errors = errors(1);
     let verdict = |holds: bool| if holds { "holds" } else { "does not hold" };
     // Where the interval contains a limit, the samples do not show on which side the speed is.
-    let within = |speed: Speed, [from, to]: [f64; 2]| {
+    let within = |speed: Ratio, [from, to]: [f64; 2]| {
         if speed.low > from && speed.high < to {
             "holds"
         } else if speed.high < from || speed.low > to {
@@ -555,11 +556,11 @@ fn claims() -> String {
             "not shown"
         }
     };
-    let is_over = |speed: Speed, limit: f64| match speed {
-        Speed { tie: true, .. } if limit == 1.0 => "a tie",
+    let is_over = |speed: Ratio, limit: f64| match speed {
+        Ratio { tie: true, .. } if limit == 1.0 => "a tie",
         speed => within(speed, [limit, f64::INFINITY]),
     };
-    let times_of = |speed: Speed| format!("{} times", known(speed));
+    let times_of = |speed: Ratio| format!("{} times", known(speed));
     let mut found: Vec<[String; 4]> = Vec::new();
     let mut row = |claim: &str, source: &str, measured: String, verdict: &str| {
         found.push([claim.into(), source.into(), measured, verdict.into()]);

@@ -4,10 +4,11 @@
 //! It names a method only where intervals separate it from the others.
 
 use super::document::{Document, label, list, parse};
-use super::summary::{MethodError, MethodSpeed, SCALAR, Speed, Speeds, Summary};
+use super::summary::{MethodError, MethodSpeed, SCALAR, Speeds, Summary};
 use crate::compare::comparison::BASELINE;
 use crate::compare::comparison::table::significant;
 use crate::compare::table::{html_text, markdown_text};
+use crate::compare::timing::Ratio;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -55,7 +56,7 @@ struct Said {
     /// The speeds in words, for places without bars.
     speeds: Vec<Part>,
     /// Methods with their speeds, for lines with bars.
-    bars: Vec<(Vec<Part>, Speed)>,
+    bars: Vec<(Vec<Part>, Ratio)>,
 }
 
 /// The heading of the card of pictures.
@@ -175,7 +176,7 @@ fn named<'a>(names: impl Iterator<Item = &'a str>, most: usize, last: &str) -> V
 /// are faster than naive Phong beyond doubt, then all whose intervals reach its own. Returns none
 /// if nothing is faster beyond doubt.
 fn fastest(speeds: &Speeds) -> Vec<&MethodSpeed> {
-    let faster = same(speeds).filter(|m| m.speed.is_faster());
+    let faster = same(speeds).filter(|m| m.speed.word() == "faster");
     let Some(best) = faster.max_by(by_speed) else {
         return Vec::new();
     };
@@ -271,7 +272,7 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
 }
 
 /// Writes a speed with its interval in words.
-fn times(speed: &Speed) -> Vec<Part> {
+fn times(speed: &Ratio) -> Vec<Part> {
     let interval = format!("{:.2} to {:.2}", speed.low, speed.high);
     match speed.known() {
         Some(known) => {
@@ -349,7 +350,7 @@ fn html_lines(by: &str, said: &Said, is_here: bool) -> String {
     if said.bars.is_empty() {
         return String::new();
     }
-    let line = |(name, speed): &(Vec<Part>, Speed)| {
+    let line = |(name, speed): &(Vec<Part>, Ratio)| {
         let (name, word, bar) = (html_parts(name, is_here), speed.word(), bar(speed));
         let tone = match word {
             "faster" => "good",
@@ -370,8 +371,8 @@ fn html_lines(by: &str, said: &Said, is_here: bool) -> String {
 }
 
 /// Draws an interval on a logarithmic scale from 0.5 to 2. Arrows say that it goes on.
-fn bar(speed: &Speed) -> String {
-    let Speed { low, high, .. } = *speed;
+fn bar(speed: &Ratio) -> String {
+    let Ratio { low, high, .. } = *speed;
     let place = |speed: f64| 50.0 + 50.0 * libm::log2(speed).clamp(-1.0, 1.0);
     // 2 % are seen where the interval is narrower.
     let from = place(low).min(98.0);

@@ -26,7 +26,7 @@ mod tests;
 
 pub use answer::sentences;
 pub use document::parse;
-pub use summary::{MethodError, Speed, Summary};
+pub use summary::{MethodError, Summary};
 
 pub(crate) use answer::text_of;
 pub(crate) use date::utc_date;

@@ -82,24 +82,10 @@ pub struct MethodSpeed {
     /// The largest error in grey levels: in any scene, or for a method without scenes on the
     /// experiment's sphere.
     pub levels: f64,
-    /// The speed.
+    /// The speed as a multiple of naive Phong's: the geometric means of typical values and of the
+    /// ends of intervals over all frames.
     #[serde(flatten)]
-    pub speed: Speed,
-}
-
-/// A speed as a multiple of naive Phong's: the geometric means of typical values and of the ends of
-/// intervals over all frames.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-pub struct Speed {
-    /// The typical value.
-    pub typical: f64,
-    /// The lower end of the interval.
-    pub low: f64,
-    /// The upper end of the interval.
-    pub high: f64,
-    /// True if it is not known whether the method is faster or slower. A wider interval than
-    /// `low..=high` decides.
-    pub tie: bool,
+    pub speed: Ratio,
 }
 
 impl Summary {
@@ -176,25 +162,33 @@ fn row<'a>(scene: &'a Value, name: &str) -> Option<&'a Value> {
     rows.find(|row| text(row, "/variant") == name)
 }
 
-/// Summarises the speeds of scenes, which were drawn in one kind of code.
+/// Summarises the speeds of scenes, which were drawn in one kind of code. Leaves out scenes for
+/// which the machine was too busy, if these are at most half of them.
 pub(super) fn of_scenes(scenes: &[&Value], level: &str, errors: &[MethodError]) -> Speeds {
+    let is_told = |scene: &&&Value| !is_too_busy(&scene["noise"]);
+    let mut told: Vec<&Value> = scenes.iter().filter(is_told).copied().collect();
+    let is_answer = 2 * told.len() >= scenes.len();
+    if !is_answer {
+        told = scenes.to_vec();
+    }
     let methods = errors.iter().filter_map(|error| {
         let speed =
-            |scene: &&Value| Speed::of(&row(scene, &error.variant)?["speed"]["ratio_to_naive"]);
-        let speeds: Option<Vec<Speed>> = scenes.iter().map(speed).collect();
+            |scene: &&Value| ratio_of(&row(scene, &error.variant)?["speed"]["ratio_to_naive"]);
+        let speeds: Option<Vec<Ratio>> = told.iter().map(speed).collect();
         Some(MethodSpeed {
             variant: error.variant.clone(),
             levels: error.levels,
-            speed: Speed::mean(&speeds?),
+            speed: Ratio::mean(&speeds?),
         })
     });
     Speeds {
         level: level.to_string(),
         frames: match scenes.len() {
             1 => "in this scene".to_string(),
-            count => format!("over {count} scenes"),
+            count if told.len() == count => format!("over {count} scenes"),
+            count => format!("over {} of {count} scenes", told.len()),
         },
-        too_busy: too_busy(scenes.iter().map(|scene| &scene["noise"])),
+        too_busy: too_busy(scenes.iter().map(|scene| &scene["noise"])).filter(|_| !is_answer),
         methods: methods.collect(),
     }
 }
@@ -213,7 +207,7 @@ fn of_speedups(speedups: &Value, errors: &[MethodError]) -> Option<Speeds> {
         let on_sphere = || number(method, "/levels_off");
         Some(MethodSpeed {
             levels: drawn.map(|error| error.levels).or_else(on_sphere)?,
-            speed: Speed::of(&method["corners"][corner]["ratio_to_naive"])?,
+            speed: ratio_of(&method["corners"][corner]["ratio_to_naive"])?,
             variant,
         })
     });
@@ -250,91 +244,7 @@ fn too_busy<'a>(noises: impl Iterator<Item = &'a Value>) -> Option<String> {
     })
 }
 
-impl Speed {
-    /// Reads a ratio of a document.
-    pub(super) fn of(ratio: &Value) -> Option<Speed> {
-        Some(Speed {
-            typical: number(ratio, "/typical")?,
-            low: number(ratio, "/low")?,
-            high: number(ratio, "/high")?,
-            tie: ratio["tie"] == true,
-        })
-    }
-
-    /// Returns the geometric means of speeds, which are at least one.
-    pub fn mean(speeds: &[Speed]) -> Speed {
-        if let [one] = speeds {
-            return *one;
-        }
-        let mean = |value: fn(&Speed) -> f64| {
-            let sum: f64 = speeds.iter().map(|speed| libm::log(value(speed))).sum();
-            libm::exp(sum / speeds.len() as f64)
-        };
-        Ratio::new(
-            mean(|speed| speed.low),
-            mean(|speed| speed.typical),
-            mean(|speed| speed.high),
-        )
-        .into()
-    }
-
-    /// True if the method is faster than naive Phong beyond doubt.
-    pub(super) fn is_faster(&self) -> bool {
-        self.low > 1.0 && !self.tie
-    }
-
-    /// Says in a word whether the method is faster than naive Phong.
-    pub(super) fn word(&self) -> &'static str {
-        match self {
-            speed if speed.is_faster() => "faster",
-            Speed { high, tie, .. } if *high < 1.0 && !tie => "slower",
-            _ => "tie",
-        }
-    }
-
-    /// Writes the typical value with the digits that are known: see [`Ratio::known`].
-    pub fn known(&self) -> Option<String> {
-        let Speed {
-            typical,
-            low,
-            high,
-            tie,
-        } = *self;
-        let ratio = Ratio {
-            typical,
-            low,
-            high,
-            tie,
-        };
-        ratio.known()
-    }
-
-    /// Returns the value and its interval for a table. A `=` before them says that it is a tie.
-    pub fn cell(&self) -> String {
-        let Speed { low, high, tie, .. } = *self;
-        let known = self.known().unwrap_or_else(|| "–".to_string());
-        // Naive Phong against itself has no interval.
-        if low == high {
-            return known;
-        }
-        let tie = if tie { "= " } else { "" };
-        format!("{tie}{known} ({low:.2}–{high:.2})")
-    }
-}
-
-impl From<Ratio> for Speed {
-    fn from(ratio: Ratio) -> Speed {
-        let Ratio {
-            typical,
-            low,
-            high,
-            tie,
-        } = ratio;
-        Speed {
-            typical,
-            low,
-            high,
-            tie,
-        }
-    }
+/// Reads a ratio of a document.
+pub(super) fn ratio_of(value: &Value) -> Option<Ratio> {
+    Ratio::deserialize(value).ok()
 }

@@ -1,7 +1,7 @@
 //! The tables for Markdown, for CSV, and for readers of the page without JavaScript.
 
 use super::document::{OPERATIONS, RATES, label, list, number, text, title};
-use super::summary::{Speed, Summary, is_too_busy, of_scenes};
+use super::summary::{Summary, is_too_busy, of_scenes, ratio_of};
 use crate::compare::comparison::NOTABLE_CLAMPING;
 use crate::compare::comparison::table::{levels, significant};
 use crate::compare::table::Table;
@@ -173,7 +173,7 @@ fn time(value: &Value, pointer: &str, noise: &Value) -> String {
 /// Writes a ratio with its interval, or [`NONE`] if the machine was too busy. A `=` before it says
 /// that it is a tie.
 fn ratio(ratio: &Value, noise: &Value) -> String {
-    let speed = Speed::of(ratio).filter(|_| !is_too_busy(noise));
+    let speed = ratio_of(ratio).filter(|_| !is_too_busy(noise));
     speed.map_or_else(|| NONE.into(), |speed| speed.cell())
 }
 

@@ -1,9 +1,9 @@
 //! Statistics of samples: quantiles, and ratios of speeds with their intervals.
 
 use alloc::format;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The quantile of its samples that stands for a candidate. Noise only adds time. Of few samples
 /// this is about the mean of the least two, and of many it does not hang on the luckiest.
@@ -91,7 +91,7 @@ pub fn quantile(values: &mut [f64], p: f64) -> f64 {
 /// The ratio of a candidate's speed to a baseline's, with its 95 % interval.
 ///
 /// Over 1 means faster than the baseline, under 1 slower.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Ratio {
     /// The baseline's typical time divided by the candidate's.
     pub typical: f64,
@@ -120,9 +120,44 @@ impl Ratio {
         }
     }
 
+    /// Returns the geometric means of ratios and of the ends of their intervals. There is at least
+    /// one.
+    pub fn mean(ratios: &[Ratio]) -> Ratio {
+        if let [one] = ratios {
+            return *one;
+        }
+        let mean = |value: fn(&Ratio) -> f64| {
+            let sum: f64 = ratios.iter().map(|ratio| libm::log(value(ratio))).sum();
+            libm::exp(sum / ratios.len() as f64)
+        };
+        Ratio::new(mean(|r| r.low), mean(|r| r.typical), mean(|r| r.high))
+    }
+
+    /// Says whether the candidate is `faster` or `slower` than the baseline; `tie` if the samples do
+    /// not show it.
+    pub fn word(&self) -> &'static str {
+        match self {
+            Ratio { tie: true, .. } => "tie",
+            Ratio { typical, .. } if *typical > 1.0 => "faster",
+            _ => "slower",
+        }
+    }
+
     /// Returns half the interval, as a part of the ratio.
     pub fn doubt(&self) -> f64 {
         (self.high - self.low) / 2.0 / self.typical
+    }
+
+    /// Returns the ratio and its interval for a table. A `=` before them says that it is a tie.
+    pub fn cell(&self) -> String {
+        let Ratio { low, high, tie, .. } = *self;
+        let known = self.known().unwrap_or_else(|| "–".to_string());
+        // The baseline against itself has no interval.
+        if low == high {
+            return known;
+        }
+        let tie = if tie { "= " } else { "" };
+        format!("{tie}{known} ({low:.2}–{high:.2})")
     }
 
     /// Writes the ratio with the digits that are known: two where half the interval is at most 5 %

@@ -133,7 +133,7 @@ fn speeds_over_scenes_are_geometric_means_of_values_and_intervals() {
     assert_eq!((error.levels, &*error.scene, error.place), (0.5, "A", 0));
     let speeds = summary.scalar.expect("scalar code");
     assert_eq!(speeds.frames, "over 2 scenes");
-    let Speed {
+    let Ratio {
         low, typical, high, ..
     } = speeds.methods[0].speed;
     for (mean, of) in [(low, 1.9 * 7.6), (typical, 2.0 * 8.0), (high, 2.1 * 8.4)] {
@@ -226,8 +226,12 @@ fn pictures_of_all_scenes_decide_for_simd_too() {
 #[test]
 fn on_a_machine_that_was_too_busy_speeds_are_withheld_and_errors_told() {
     let rows = [NAIVE, ("duff-phong", [1.22, 1.25, 1.28], 0.2)];
-    let mut data = document(&[scene("A", SCALAR, &rows), scene("B", SCALAR, &rows)]);
+    let mut data = document(&["A", "B", "C"].map(|name| scene(name, SCALAR, &rows)));
     data["comparisons"][1]["noise"] = noise("too-busy", 0.64);
+    let text = said(&data, "Scalar code");
+    let rest = "It is 1.2 × (1.22 to 1.28) as fast as naive Phong over 2 of 3 scenes.";
+    assert!(text.contains(rest), "{text}");
+    data["comparisons"][2]["noise"] = noise("too-busy", 0.1);
     let text = said(&data, "Scalar code");
     assert_eq!(
         text,
@@ -256,6 +260,7 @@ fn on_a_machine_that_was_too_busy_speeds_are_withheld_and_errors_told() {
     );
     // Without interruptions the sentence of the document says why.
     data["comparisons"][1]["noise"] = noise("too-busy", 0.0);
+    data["comparisons"][2]["noise"] = noise("too-busy", 0.0);
     let text = said(&data, "Scalar code");
     assert!(
         text.starts_with("Too busy to tell: ± 12 %. Run again"),
@@ -340,7 +345,7 @@ fn the_quiet_run_stands_beside_this_one() {
 
 #[test]
 fn a_bar_that_leaves_the_scale_ends_in_an_arrow() {
-    let speed = |low, high| Speed {
+    let speed = |low, high| Ratio {
         typical: (low + high) / 2.0,
         low,
         high,
