@@ -13,10 +13,10 @@ export const levelName = ({ level }) =>
 export function ratioText(q) {
 	const half = q && (q.high - q.low) / 2;
 	if (!q || half > 0.3 * q.typical) return "–";
-	const digits = half > 0.005 ? 1 : 2;
-	const isKnown = half <= 0.05 || (half <= 0.1 && q.typical < 10);
+	const digits = half <= 0.025 ? 2 : half <= 0.25 ? 1 : 0;
+	const about = half > 0.05 * q.typical ? "about " : "";
 	const tie = q.tie && half ? "= " : "";
-	return `${tie}${isKnown ? "" : "about "}${q.typical.toFixed(digits)}${TIMES}`;
+	return `${tie}${about}${q.typical.toFixed(digits)}${TIMES}`;
 }
 
 /* The geometric mean of ratios. */

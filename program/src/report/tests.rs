@@ -572,7 +572,7 @@ fn speeds_of_documents_with_medians_are_shown_with_a_note() {
     let told = "schema fastphong.bench/2: speeds are medians of time passed, which a busy machine spoils; errors can be compared";
     assert_eq!(read.not_comparable().as_deref(), Some(told));
     let markdown = read.markdown("images").text.replace('\u{A0}', " ");
-    for text in ["use Duff Phong. It is 1.2 × (1.23 to 1.27)", told] {
+    for text in ["use Duff Phong. It is 1.25 × (1.23 to 1.27)", told] {
         assert!(markdown.contains(text), "{text}: {markdown}");
     }
     let html = read.html();

@@ -415,7 +415,7 @@ fn tables_have_a_row_a_method() {
     }
     let text = table(&comparison, TableKind::Short);
     assert!(
-        text.contains("× naive by work\n") && text.contains("  1.2\n"),
+        text.contains("× naive by work\n") && text.contains("  1.21\n"),
         "{text}"
     );
     comparison.rows[0].own.max = 1.0;

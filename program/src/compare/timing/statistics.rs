@@ -160,13 +160,14 @@ impl Ratio {
         format!("{tie}{known} ({low:.2}–{high:.2})")
     }
 
-    /// Writes the ratio with the digits that are known: two where half the interval is at most 5 %
-    /// of it, behind `about` up to 30 %, else `None`.
+    /// Writes the ratio with the digits that are known: as many decimals, at most two, as leave half
+    /// the interval within 2.5 units of the last one. Writes `about` before it if half the interval
+    /// is over 5 % of the ratio, and nothing, `None`, if it is over 30 %.
     pub fn known(&self) -> Option<String> {
-        let digits = match self.typical {
-            ratio if ratio < 0.0995 => 3,
-            ratio if ratio < 0.995 => 2,
-            ratio if ratio < 9.95 => 1,
+        let half = (self.high - self.low) / 2.0;
+        let digits = match half {
+            half if half <= 0.025 => 2,
+            half if half <= 0.25 => 1,
             _ => 0,
         };
         let text = format!("{:.digits$}", self.typical);
@@ -220,6 +221,7 @@ mod tests {
     fn a_ratio_prints_the_digits_that_are_known() {
         let text = |low, typical, high| Ratio::new(low, typical, high).known();
         assert_eq!(text(0.29, 0.301, 0.31).as_deref(), Some("0.30"));
+        assert_eq!(text(1.03, 1.05, 1.07).as_deref(), Some("1.05"));
         assert_eq!(text(1.37, 1.41, 1.45).as_deref(), Some("1.4"));
         assert_eq!(text(12.1, 12.4, 12.8).as_deref(), Some("12"));
         assert_eq!(text(0.9, 1.1, 1.3).as_deref(), Some("about 1.1"));
