@@ -4,8 +4,7 @@
 //! - [`Clock`] reads the thread's own processor time, which stands still while other programs run
 //!   (`clock.rs`).
 //! - [`time_interleaved`] samples all candidates in rounds (`rounds.rs`), and marks samples that
-//! were
-//!   interrupted (`interruptions.rs`).
+//!   were interrupted (`interruptions.rs`).
 //! - [`Times`] has what comes of it (`times.rs`): a [`Timing`] for each candidate, a [`Ratio`] for
 //!   each pair, and [`Noise`], which says how far to trust them (`trust.rs`).
 //!
