@@ -281,7 +281,7 @@ const FIELDS: &str = include_str!("fields.json");
 /// older schemas stand for today's typical times and their intervals.
 ///
 /// # Errors
-/// [`DocumentError`] if the text is not JSON, has another schema, or lacks a field.
+/// An error that says where, if the text is not JSON, has another schema, or lacks a field.
 pub fn parse(text: &str) -> Result<Value, DocumentError> {
     // Some editors and shells begin a text with a byte-order mark.
     let text = text.strip_prefix('\u{FEFF}').unwrap_or(text);

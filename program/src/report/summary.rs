@@ -16,7 +16,7 @@ use serde_json::Value;
 pub struct Summary {
     /// The machine.
     pub machine: Computer,
-    /// The day, as [`super::utc_date`] writes it.
+    /// The day in UTC, as in `2026-11-28`.
     pub date: Option<String>,
     /// The command line as typed, with the program first.
     pub command_line: Vec<String>,
