@@ -254,7 +254,7 @@ fn share(values: impl Iterator<Item = bool> + Clone) -> String {
 struct Others(Vec<Child>);
 
 impl Others {
-    /// Starts processes, each in a session of its own if `setsid` is there: Linux shares processors
+    /// Starts processes, each in its own session if `setsid` is there: Linux shares processors
     /// fairly between sessions, so that each weighs as much as the benchmark. They end by
     /// themselves after some seconds if nobody ends them.
     fn start(load: Load, count: usize, seconds: usize) -> Others {

@@ -13,7 +13,7 @@ export const levelName = ({ level }) =>
 export function ratioText(q) {
 	const half = q && (q.high - q.low) / 2;
 	if (!q || half > 0.3 * q.typical) return "–";
-	const digits = half <= 0.025 ? 2 : half <= 0.25 ? 1 : 0;
+	const digits = half >= 0.5 ? 0 : half >= 0.05 ? 1 : 2;
 	const about = half > 0.05 * q.typical ? "about " : "";
 	const tie = q.tie && half ? "= " : "";
 	return `${tie}${about}${q.typical.toFixed(digits)}${TIMES}`;
@@ -22,7 +22,9 @@ export function ratioText(q) {
 /* The geometric mean of ratios. */
 export function meanRatio(list) {
 	const [typical, low, high] = ["typical", "low", "high"].map(k => mean(list.map(q => q[k])));
-	return { typical, low, high, tie: list.every(q => q.tie) || (low <= 1 && high >= 1) };
+	// As Ratio::SURE: faster or slower needs a wider interval than the one that is shown.
+	const wider = end => typical * (end / typical) ** (3.09 / 1.96);
+	return { typical, low, high, tie: wider(low) <= 1 && wider(high) >= 1 };
 }
 
 /* True if the machine was too busy for the times of a scene or an experiment. They are then not shown. */
@@ -72,7 +74,7 @@ function rowOf(c, row) {
 		ns: speed?.ns_per_covered_pixel,
 		ratio: speed?.ratio_to_naive,
 		barycentric: speed?.ratio_to_barycentric,
-		work: row.speed?.work_to_naive,
+		work: isTooBusy(c) ? row.speed?.work_to_naive : null,
 	};
 }
 

@@ -15,13 +15,16 @@ for (const m of METHODS) {
 	m.shape = family < 0 ? "diamond" : SHAPES[family % SHAPES.length];
 	m.filling = members.indexOf(m) % 3;
 	m.head = members[0] === m;
-	// The worst error in all scenes, and the mean speed in those where it can be told.
+	// The worst error in all scenes, and the mean speed in those where it can be told, if they are most.
 	const drawn = SCENES.filter(s => s.rows[m.name]);
 	const ratios = drawn.filter(s => !isTooBusy(s)).map(s => s.rows[m.name].ratio);
 	m.scene = [...drawn].sort(by(s => -s.rows[m.name].max))[0];
 	m.worst = m.scene?.rows[m.name];
 	m.max = m.worst?.max;
-	m.speed = ratios.length && ratios.every(Boolean) ? meanRatio(ratios) : null;
+	m.speed =
+		ratios.length && ratios.length * 2 >= drawn.length && ratios.every(Boolean)
+			? meanRatio(ratios)
+			: null;
 }
 
 /* Keys 1 to 9 go to the first method of each family, then to the most exact others. */

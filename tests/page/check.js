@@ -293,7 +293,7 @@
   }
   try {
     // Ratios have as many digits as their intervals leave known.
-    for (const [typical, half, text] of [[1, 0, "1.00"], [0.2, 0.004, "0.20"], [1.05, 0.02, "1.05"], [1.43, 0.05, "1.4"], [1.43, 0.2, "about 1.4"], [12.3, 0.5, "12"], [12.3, 0.2, "12.3"], [1.43, 0.5, null]])
+    for (const [typical, half, text] of [[1, 0, "1.00"], [0.2, 0.004, "0.20"], [1.05, 0.02, "1.05"], [1.43, 0.05, "1.4"], [1.43, 0.04, "1.43"], [1.43, 0.2, "about 1.4"], [12.3, 0.5, "12"], [12.3, 0.2, "12.3"], [1.43, 0.5, null]])
       check(`digits of ${typical} ± ${half}`, ratioText({ typical, low: typical - half, high: typical + half }) === (text ? text + TIMES : "–"));
     check("a tie is marked, and the baseline is not", ratioText({ typical: 1, low: 0.98, high: 1.02, tie: true }) === "= 1.00" + TIMES && ratioText({ typical: 1, low: 1, high: 1, tie: true }) === "1.00" + TIMES && ratioText(null) === "–");
     const scenes = SCENES.length, drawn = scenes && PICTURES;

@@ -105,6 +105,9 @@ fn of_pictures(summary: &Summary) -> Vec<Part> {
         scenes => format!("in all {scenes} scenes"),
     };
     let others = || summary.methods.iter().filter(|m| m.variant != BASELINE);
+    if others().next().is_none() {
+        return Vec::from([plain("No other method than naive Phong was drawn.")]);
+    }
     let same: Vec<&MethodError> = others().filter(|m| m.levels <= SAME).collect();
     let mut parts = named(same.iter().map(|m| &*m.variant), NAMED, "and");
     parts.push(Part::Text(match same.len() {
@@ -215,6 +218,10 @@ fn of_speeds(speeds: &Speeds, is_optimised: bool) -> Said {
     }
     if speeds.methods.is_empty() {
         said.sentences.push(plain("No times were taken."));
+        return said;
+    }
+    if speeds.methods.iter().all(|m| m.variant == BASELINE) {
+        said.sentences.push(plain("No other method was timed."));
         return said;
     }
     if !is_optimised {

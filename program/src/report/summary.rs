@@ -5,6 +5,7 @@
 
 use super::document::{list, number, text, title};
 use crate::compare::timing::Ratio;
+use alloc::collections::BTreeSet;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -94,8 +95,9 @@ impl Summary {
         let scenes: Vec<&Value> = list(data, "/comparisons").iter().collect();
         let methods = errors(&scenes);
         let level = |scene: &Value| text(scene, "/renderer/level").to_string();
-        let mut levels = scenes.iter().map(|scene| level(scene));
-        let wide = levels.find(|level| level != SCALAR);
+        // A comparison of several instruction sets has the best one last.
+        let levels = scenes.iter().map(|scene| level(scene));
+        let wide = levels.filter(|level| level != SCALAR).last();
         let drawn_in = |code: &str| {
             let those = scenes.iter().filter(|scene| level(scene) == code);
             let those: Vec<&Value> = those.copied().collect();
@@ -113,7 +115,7 @@ impl Summary {
             },
             date: data["date"].as_str().map(String::from),
             command_line: words.map(|word| text(word, "").to_string()).collect(),
-            scenes: scenes.len(),
+            scenes: distinct(&scenes),
             scalar: drawn_in(SCALAR),
             simd: wide
                 .and_then(|level| drawn_in(&level))
@@ -121,13 +123,17 @@ impl Summary {
             methods,
         }
     }
-}
 
-impl Summary {
     /// True if the program was built with optimisation. Otherwise its times say nothing.
     pub(super) fn is_optimised(&self) -> bool {
         self.machine.profile == "release"
     }
+}
+
+/// Counts scenes. A scene may be compared on several instruction sets.
+fn distinct(scenes: &[&Value]) -> usize {
+    let names: BTreeSet<&str> = scenes.iter().map(|scene| title(scene)).collect();
+    names.len()
 }
 
 /// The instruction set without SIMD.
@@ -224,24 +230,17 @@ pub(super) fn is_too_busy(noise: &Value) -> bool {
     noise["trust"] == "too-busy"
 }
 
-/// Says that the machine was too busy in some of the frames with these noises. Returns `None` if it
-/// was not.
+/// Says why the speeds of frames with these noises are withheld. Returns `None` if the machine was
+/// too busy in none of them.
 fn too_busy<'a>(noises: impl Iterator<Item = &'a Value>) -> Option<String> {
-    let interrupted = |noise: &Value| number(noise, "/interrupted").unwrap_or(0.0);
-    let worst = noises
-        .filter(|noise| is_too_busy(noise))
-        .max_by(|a, b| interrupted(a).total_cmp(&interrupted(b)))?;
-    let share = 100.0 * interrupted(worst);
-    Some(if worst["clock"] == "thread" && share >= 5.0 {
-        format!("Too busy to tell: {share:.0}\u{A0}% of the samples were interrupted.")
-    } else {
-        // Too few rounds, or threads that had no processor: the document says more.
-        let sentence = text(worst, "/sentence");
-        let mut letters = sentence.chars();
-        let first = letters.next().map(|letter| letter.to_ascii_uppercase());
-        let capitalised: String = first.into_iter().chain(letters).collect();
-        format!("{capitalised}.")
-    })
+    let interrupted = |noise: &&Value| number(noise, "/interrupted").unwrap_or(0.0);
+    let those = noises.filter(|noise| is_too_busy(noise));
+    let worst = those.max_by(|a, b| interrupted(a).total_cmp(&interrupted(b)))?;
+    let sentence = text(worst, "/sentence");
+    let mut letters = sentence.chars();
+    let first = letters.next().map(|letter| letter.to_ascii_uppercase());
+    let capitalised: String = first.into_iter().chain(letters).collect();
+    Some(format!("{capitalised}."))
 }
 
 /// Reads a ratio of a document.

@@ -40,11 +40,12 @@ pub(super) fn all(data: &Value) -> Vec<Trusted> {
     }
     if data["scaling"].is_object() {
         let points = list(&data["scaling"], "/points").iter();
-        let trust = |noise: &&Value| {
-            let order = ["quiet", "busy", "too-busy"];
-            order.iter().position(|trust| noise["trust"] == *trust)
-        };
-        let worst = points.map(|point| &point["noise"]).max_by_key(trust);
+        let doubt = |noise: &Value| number(noise, "/doubt").unwrap_or(0.0);
+        // Points without a time say so by their dashes.
+        let told = points
+            .map(|point| &point["noise"])
+            .filter(|noise| !is_too_busy(noise));
+        let worst = told.max_by(|a, b| doubt(a).total_cmp(&doubt(b)));
         add(growth(&data["scaling"]), worst.unwrap_or(&Value::Null));
     }
     if data["small"].is_object() {

@@ -350,7 +350,7 @@ mod tests {
     #[test]
     fn ties_are_marked() {
         let text = |low, median, high| ratio(&Ratio::new(low, median, high));
-        assert_eq!(text(1.46, 1.5, 1.54).as_deref(), Some("1.5"));
+        assert_eq!(text(1.44, 1.5, 1.56).as_deref(), Some("1.5"));
         assert_eq!(text(0.99, 1.01, 1.03).as_deref(), Some("=1.01"));
         assert_eq!(text(1.0, 1.0, 1.0).as_deref(), Some("1"));
         assert_eq!(text(0.5, 1.0, 2.0), None, "not one digit is known");

@@ -56,7 +56,7 @@ impl Default for ScalingOptions {
             lecture_up_to: 64_000,
             limits: TimeLimits {
                 time_budget: Duration::from_millis(250),
-                rounds: 15,
+                rounds: usize::MAX,
                 warm_up_rounds: 1,
             },
         }

@@ -47,7 +47,7 @@ impl Default for SpeedupOptions {
             span: 1_024,
             limits: TimeLimits {
                 time_budget: Duration::from_secs(6),
-                rounds: 25,
+                rounds: usize::MAX,
                 warm_up_rounds: 2,
             },
         }

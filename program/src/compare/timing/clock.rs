@@ -10,9 +10,9 @@ pub struct Moment {
     /// The time that the thread had a processor, or all threads of the process together; the time
     /// that passed, where the system does not say.
     pub own: u64,
-    /// The time that threads waited for a processor, summed over several threads; 0 where the
-    /// system does not say, and for one thread, whose waiting is `passed` less `own`.
-    pub waited: u64,
+    /// The time that several threads together waited for a processor. `None` where the system does
+    /// not say, and for one thread, whose waiting is `passed` less `own`.
+    pub waited: Option<u64>,
 }
 
 /// The end of a sample at which clocks are read.
@@ -88,9 +88,15 @@ impl Clock {
         let waited = if self.is_own() {
             (last.passed - first.passed).saturating_sub(last.own - first.own)
         } else {
-            last.waited.saturating_sub(first.waited)
+            let both = last.waited.zip(first.waited);
+            both.map_or(0, |(last, first)| last.saturating_sub(first))
         };
         waited > LEAST_WAIT_NS
+    }
+
+    /// True if this clock sees interruptions.
+    pub fn sees_interruptions(&self) -> bool {
+        self.is_own() || self.waited().is_some()
     }
 
     /// Reads all clocks at an end of a sample: the one that counts innermost, so that a switch to
@@ -119,11 +125,12 @@ impl Clock {
         self.started.elapsed().as_nanos() as u64
     }
 
-    fn waited(&self) -> u64 {
-        match self.threads {
-            1 => 0,
-            _ => waited_for_processors().unwrap_or(0),
-        }
+    /// Reads how long threads waited for a processor. More threads than processors wait for each
+    /// other, which says nothing about other programs.
+    fn waited(&self) -> Option<u64> {
+        let processors = std::thread::available_parallelism().map_or(1, usize::from);
+        let have_one_each = (2..=processors).contains(&self.threads);
+        have_one_each.then(waited_for_processors).flatten()
     }
 }
 
@@ -191,7 +198,7 @@ mod tests {
         let moment = |passed, own, waited| Moment {
             passed,
             own,
-            waited,
+            waited: Some(waited),
         };
         let first = moment(10, 20, 30);
         let (one, several) = (Clock::new(1), Clock::new(2));

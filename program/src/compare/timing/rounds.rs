@@ -31,11 +31,11 @@ impl TimeLimits {
 }
 
 impl Default for TimeLimits {
-    /// Returns limits of up to 101 rounds within 5 seconds, after two rounds of warm-up.
+    /// Returns limits of 5 seconds, after two rounds of warm-up.
     fn default() -> Self {
         TimeLimits {
             time_budget: Duration::from_secs(5),
-            rounds: 101,
+            rounds: usize::MAX,
             warm_up_rounds: 2,
         }
     }
@@ -220,7 +220,7 @@ mod tests {
             let read = |_| Moment {
                 passed: self.own.get() + self.waited.get(),
                 own: self.own.get(),
-                waited: 0,
+                waited: None,
             };
             let hear = |part| {
                 self.told.push(part);

@@ -160,15 +160,15 @@ impl Ratio {
         format!("{tie}{known} ({low:.2}–{high:.2})")
     }
 
-    /// Writes the ratio with the digits that are known: as many decimals, at most two, as leave half
-    /// the interval within 2.5 units of the last one. Writes `about` before it if half the interval
+    /// Writes the ratio with the digits that are known: as few decimals, at most two, as move it by
+    /// no more than half its interval. Writes `about` before it if half the interval
     /// is over 5 % of the ratio, and nothing, `None`, if it is over 30 %.
     pub fn known(&self) -> Option<String> {
         let half = (self.high - self.low) / 2.0;
         let digits = match half {
-            half if half <= 0.025 => 2,
-            half if half <= 0.25 => 1,
-            _ => 0,
+            half if half >= 0.5 => 0,
+            half if half >= 0.05 => 1,
+            _ => 2,
         };
         let text = format!("{:.digits$}", self.typical);
         match self.doubt() {
@@ -222,8 +222,9 @@ mod tests {
         let text = |low, typical, high| Ratio::new(low, typical, high).known();
         assert_eq!(text(0.29, 0.301, 0.31).as_deref(), Some("0.30"));
         assert_eq!(text(1.03, 1.05, 1.07).as_deref(), Some("1.05"));
-        assert_eq!(text(1.37, 1.41, 1.45).as_deref(), Some("1.4"));
-        assert_eq!(text(12.1, 12.4, 12.8).as_deref(), Some("12"));
+        assert_eq!(text(1.37, 1.41, 1.45).as_deref(), Some("1.41"));
+        assert_eq!(text(3.11, 3.2, 3.29).as_deref(), Some("3.2"));
+        assert_eq!(text(12.0, 12.5, 13.0).as_deref(), Some("12"));
         assert_eq!(text(0.9, 1.1, 1.3).as_deref(), Some("about 1.1"));
         assert_eq!(text(2.01, 18.79, 41.44), None);
     }

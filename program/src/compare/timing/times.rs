@@ -186,7 +186,7 @@ impl Times {
             .filter(|(baseline, candidate)| baseline != candidate);
         let of_ratios = others.filter_map(|(b, c)| Some(self.ratio(*b, *c)?.doubt()));
         let mut doubts: Vec<f64> = of_ratios.collect();
-        if ratios.is_empty() {
+        if doubts.is_empty() {
             doubts = self.timings().map(|timing| timing.doubt()).collect();
         }
         let all = self.samples.iter().flatten();
@@ -201,8 +201,8 @@ impl Times {
     }
 
     /// Returns the typical time of a sample of a candidate in each resample. A resample takes the
-    /// same rounds for all candidates, and from each round the deviations of any of them: alone, a
-    /// candidate has too few.
+    /// same rounds for all candidates, and from each round the deviations of any of them: a candidate
+    /// alone has too few samples.
     fn resampled(&self, candidate: usize) -> &[f64] {
         self.resampled[candidate].get_or_init(|| self.resample(candidate))
     }

@@ -51,34 +51,38 @@ impl Noise {
     /// ratios.
     pub fn new(clock: Clock, interrupted: f64, rounds: usize, cost_ns: f64, doubt: f64) -> Noise {
         let is_lost = !clock.is_own() && interrupted > MOST_INTERRUPTED;
+        let is_undisturbed = interrupted <= QUIET_INTERRUPTED;
+        let is_seen = clock.sees_interruptions();
         let trust = if doubt > MOST_DOUBT || is_lost {
             Trust::TooBusy
-        } else if interrupted <= QUIET_INTERRUPTED {
+        } else if is_undisturbed && is_seen {
             Trust::Quiet
         } else {
             Trust::Busy
         };
-        let share = format!("{} of the samples were interrupted", percent(interrupted));
-        let times = if clock.is_own() {
-            "times are the thread’s own, "
+        let share = if is_seen {
+            format!("{} of the samples were interrupted", percent(interrupted))
         } else {
-            ""
+            "interruptions are not known here".into()
         };
-        let doubt_text = format!("± {}", percent(doubt));
+        let ratios = format!("ratios ± {}", percent(doubt));
         let threads = clock.threads();
         let sentence = match trust {
-            Trust::Quiet => format!("quiet: {share}; {doubt_text}"),
-            Trust::Busy => format!("busy: {share}; {times}{doubt_text}"),
-            Trust::TooBusy if threads > 1 => {
-                format!("too busy to tell on {threads} threads: {share}; --threads 1 can")
+            Trust::Quiet => format!("quiet: {share}; {ratios}"),
+            Trust::Busy if !is_seen => format!("{share}; {ratios}"),
+            Trust::Busy if clock.is_own() => {
+                format!("busy: {share}; times are the thread’s own, {ratios}")
             }
+            Trust::Busy => format!("busy: {share}; {ratios}"),
             Trust::TooBusy => {
-                let is_noise = interrupted <= QUIET_INTERRUPTED;
-                let word = if is_noise { "noisy" } else { "busy" };
-                format!(
-                    "too {word} to tell: {doubt_text}. Run again with five times the --time-budget, \
-                     or on an idle machine"
-                )
+                let word = if is_undisturbed { "noisy" } else { "busy" };
+                let (place, cure) = if threads > 1 {
+                    (format!(" on {threads} threads"), "--threads 1 can")
+                } else {
+                    let cure = "run again with five times the --time-budget, or on an idle machine";
+                    (String::new(), cure)
+                };
+                format!("too {word} to tell{place}: {share}, {ratios}; {cure}")
             }
         };
         Noise {
@@ -113,29 +117,40 @@ mod tests {
             let noise = Noise::new(Clock::new(threads), interrupted, 20, 0.0, doubt);
             (noise.trust, noise.sentence)
         };
+        for threads in [1, 2] {
+            if !Clock::new(threads).sees_interruptions() {
+                let (trust, text) = said(threads, 0.0, 0.018);
+                assert_eq!(trust, Trust::Busy);
+                assert_eq!(text, "interruptions are not known here; ratios ± 1.8 %");
+                return;
+            }
+        }
         let (quiet, text) = said(2, 0.004, 0.018);
         assert_eq!(quiet, Trust::Quiet);
         assert_eq!(
             text,
-            "quiet: 0.4 % of the samples were interrupted; ± 1.8 %"
+            "quiet: 0.4 % of the samples were interrupted; ratios ± 1.8 %"
         );
         let (busy, text) = said(2, 0.42, 0.026);
         assert_eq!(busy, Trust::Busy);
-        assert_eq!(text, "busy: 42 % of the samples were interrupted; ± 2.6 %");
+        assert_eq!(
+            text,
+            "busy: 42 % of the samples were interrupted; ratios ± 2.6 %"
+        );
         let (lost, text) = said(2, 0.97, 0.026);
         assert_eq!(lost, Trust::TooBusy, "the lowest tenth may be interrupted");
         assert!(text.starts_with("too busy to tell on 2 threads: 97 % of the samples"));
         for (interrupted, word) in [(0.0, "noisy"), (0.5, "busy")] {
             let (trust, text) = said(1, interrupted, 0.12);
             assert_eq!(trust, Trust::TooBusy);
-            let expected = format!("too {word} to tell: ± 12 %. Run again with five times");
-            assert!(text.starts_with(&expected), "{text}");
+            assert!(text.starts_with(&format!("too {word} to tell: ")), "{text}");
+            assert!(text.contains("ratios ± 12 %; run again with five times"));
         }
         if Clock::HAS_OWN {
             let (busy, text) = said(1, 0.97, 0.026);
             assert_eq!(busy, Trust::Busy);
             assert!(
-                text.contains("times are the thread’s own, ± 2.6 %"),
+                text.contains("times are the thread’s own, ratios ± 2.6 %"),
                 "{text}"
             );
         }
