@@ -97,7 +97,7 @@ impl Summary {
         let level = |scene: &Value| text(scene, "/renderer/level").to_string();
         // A comparison of several instruction sets has the best one last.
         let levels = scenes.iter().map(|scene| level(scene));
-        let wide = levels.filter(|level| level != SCALAR).last();
+        let wide = levels.rev().find(|level| level != SCALAR);
         let drawn_in = |code: &str| {
             let those = scenes.iter().filter(|scene| level(scene) == code);
             let those: Vec<&Value> = those.copied().collect();
