@@ -133,8 +133,8 @@ impl Ratio {
         Ratio::new(mean(|r| r.low), mean(|r| r.typical), mean(|r| r.high))
     }
 
-    /// Says whether the candidate is `faster` or `slower` than the baseline; `tie` if the samples do
-    /// not show it.
+    /// Says whether the candidate is `faster` or `slower` than the baseline; `tie` if the samples
+    /// do not show it.
     pub fn word(&self) -> &'static str {
         match self {
             Ratio { tie: true, .. } => "tie",

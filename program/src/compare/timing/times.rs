@@ -201,8 +201,8 @@ impl Times {
     }
 
     /// Returns the typical time of a sample of a candidate in each resample. A resample takes the
-    /// same rounds for all candidates, and from each round the deviations of any of them: a candidate
-    /// alone has too few samples.
+    /// same rounds for all candidates, and from each round the deviations of any of them: a
+    /// candidate alone has too few samples.
     fn resampled(&self, candidate: usize) -> &[f64] {
         self.resampled[candidate].get_or_init(|| self.resample(candidate))
     }
