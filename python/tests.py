@@ -1140,6 +1140,9 @@ class KeptScenes(unittest.TestCase):
 
     @unittest.skipUnless(hasattr(signal, "raise_signal") and os.name == "posix", "no signals here")
     def test_ctrl_c_ends_a_picture_within_a_second(self):
+        # A shell ignores SIGINT for programs that it starts in the background.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.getsignal(signal.SIGINT))
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         scene = fp.Scene("builtin:teapot", size=(2000, 1500))
         before = scene.render(size=SIZE)
         taken = []
