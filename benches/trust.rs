@@ -4,27 +4,57 @@
 //! cargo bench --bench trust -- SECONDS REPEATS
 //! ```
 //!
-//! takes the ratios of nine methods on three scenes on a machine that should do nothing else, for
-//! ten times SECONDS a scene: the quiet values. Then it takes them REPEATS times within SECONDS,
-//! beside 0, 2, 8 and 16 busy processes of each kind of [`Load`], and counts how many are near the
-//! quiet value, and how many intervals hold it. Every method is there under two names, too: how
-//! often is one of these called faster than the other? The results are in docs/reliability.md.
+//! takes the ratios of nine methods on four scenes on a machine that should do nothing else, for
+//! ten times SECONDS a scene. Five processes share the time, and their medians are the quiet
+//! values. Then it takes the ratios REPEATS times within SECONDS, beside 0, 2, 8 and 16 busy
+//! processes of each kind of [`Load`], and counts how many are near the quiet value, and how many
+//! intervals hold it. Each table is taken by another process. Every method is there under two
+//! names, too: how often is one of these called faster than the other? The results are in
+//! docs/reliability.md.
 
 mod scenes;
 
-use fastphong::frame::Frame;
 use fastphong::frame::triangulate::triangulated;
+use fastphong::number::SimdLevel;
 use fastphong::raster::{Edges, Renderer};
 use fastphong::shading::Variant;
 use fastphong_cli::compare::timing::{
-    Candidate, Clock, Noise, Ratio, TimeLimits, Trust, time_interleaved,
+    Candidate, Clock, Ratio, TimeLimits, Trust, time_interleaved,
 };
+use serde::{Deserialize, Serialize};
 use std::hint::black_box;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// The scenes: few large polygons, many small ones, polygons of many corners.
-const SCENES: [&str; 3] = ["prism", "sphere?polygons=5000&triangles=true", "knot"];
+/// A mesh, and the instructions to draw it by.
+struct TrustScene {
+    mesh: &'static str,
+    level: fn() -> SimdLevel,
+}
+
+/// A sphere of many small polygons.
+const SPHERE: &str = "sphere?polygons=5000&triangles=true";
+
+/// The scenes: few large polygons, many small ones, polygons of many corners; many small ones with
+/// SIMD.
+const SCENES: [TrustScene; 4] = [
+    TrustScene::scalar("prism"),
+    TrustScene::scalar(SPHERE),
+    TrustScene::scalar("knot"),
+    TrustScene {
+        mesh: SPHERE,
+        level: SimdLevel::best,
+    },
+];
+
+impl TrustScene {
+    const fn scalar(mesh: &'static str) -> TrustScene {
+        TrustScene {
+            mesh,
+            level: || SimdLevel::Scalar,
+        }
+    }
+}
 
 /// The methods; the others are compared with the first one.
 const METHODS: [&str; 9] = [
@@ -41,6 +71,9 @@ const METHODS: [&str; 9] = [
 
 /// The numbers of busy processes.
 const COUNTS: [usize; 4] = [0, 2, 8, 16];
+
+/// The quiet values are medians of so many processes.
+const QUIET: usize = 5;
 
 /// What a busy process does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,42 +95,51 @@ fn main() {
     if words.iter().any(|word| word == "--test") {
         return;
     }
-    let mut words = words.iter().filter(|word| !word.starts_with("--"));
-    let first = words.next().map_or("2", String::as_str);
-    let second = words.next().map_or("3", String::as_str);
-    if let Some(load) = LOADS.into_iter().find(|load| load.name() == first) {
-        return load.run(second.parse().expect("a number"));
-    }
-    let seconds: f64 = first.parse().expect("SECONDS");
-    let repeats: usize = second.parse().expect("REPEATS");
-    rayon::ThreadPoolBuilder::new()
-        .num_threads(1)
-        .use_current_thread()
-        .build_global()
-        .expect("no pool before");
-    let frames = SCENES.map(|mesh| scenes::scene(mesh).frame().expect("a valid scene"));
-    let long = TimeLimits {
-        time_budget: Duration::from_secs_f64(10.0 * seconds),
-        rounds: usize::MAX,
-        ..TimeLimits::default()
+    // `cargo bench` adds `--bench`.
+    let words = words.iter().filter(|word| *word != "--bench");
+    let words: Vec<&str> = words.map(String::as_str).collect();
+    let number = |place: usize, otherwise| {
+        let word = words.get(place);
+        word.map_or(otherwise, |word| word.parse().expect("a number"))
     };
-    let quiet: Vec<Table> = frames
-        .iter()
-        .map(|frame| Table::take(frame, long, false))
-        .collect();
-    for (scene, table) in SCENES.iter().zip(&quiet) {
-        println!(
-            "{scene}: {} ({} rounds)",
-            table.noise.sentence, table.noise.rounds
-        );
+    match words.first().copied() {
+        Some("table") => {
+            let table = Table::take(
+                &SCENES[number(1, 0.0) as usize],
+                number(2, 2.0),
+                words.len() > 3,
+            );
+            serde_json::to_writer(std::io::stdout(), &table).expect("an open output");
+        }
+        Some(name) if let Some(load) = LOADS.into_iter().find(|load| load.name() == name) => {
+            load.run(number(1, 1.0) as u64);
+        }
+        _ => measure(number(0, 2.0), number(1, 3.0) as usize),
+    }
+}
+
+/// Measures and prints all rows.
+fn measure(seconds: f64, repeats: usize) {
+    let scenes = 0..SCENES.len();
+    let table = |scene, seconds, may_stop| Table::of_process(scene, seconds, may_stop);
+    let mut quiet = Vec::new();
+    for (i, scene) in SCENES.iter().enumerate() {
+        let tables = [(); QUIET].map(|()| table(i, 10.0 * seconds / QUIET as f64, false));
+        let name = format!("{}, {}", scene.mesh, (scene.level)());
+        for table in &tables {
+            println!("{name}: {} ({} rounds)", table.sentence, table.rounds);
+        }
+        let median = |ratio: usize| {
+            let mut ratios = tables.each_ref().map(|table| table.ratios[ratio].typical);
+            ratios.sort_by(f64::total_cmp);
+            ratios[QUIET / 2]
+        };
+        let medians: Vec<f64> = (0..METHODS.len() - 1).map(median).collect();
+        quiet.push(medians);
     }
     println!(
         "load | tables | too busy | interrupted | in 3 % | in 3 %, not too busy | hold | half interval | called faster"
     );
-    let limits = TimeLimits {
-        time_budget: Duration::from_secs_f64(seconds),
-        ..TimeLimits::default()
-    };
     let mut all = Score::default();
     for count in COUNTS {
         for load in LOADS.iter().take(if count == 0 { 1 } else { LOADS.len() }) {
@@ -108,8 +150,8 @@ fn main() {
             );
             let mut score = Score::default();
             for _ in 0..repeats {
-                for (frame, quiet) in frames.iter().zip(&quiet) {
-                    score.add(&Table::take(frame, limits, true), quiet);
+                for (scene, quiet) in scenes.clone().zip(&quiet) {
+                    score.add(&table(scene, seconds, true), quiet);
                 }
             }
             drop(others);
@@ -121,8 +163,14 @@ fn main() {
 }
 
 /// The ratios of a scene.
+#[derive(Deserialize, Serialize)]
 struct Table {
-    noise: Noise,
+    sentence: String,
+    rounds: usize,
+    /// True if nothing can be said.
+    is_too_busy: bool,
+    /// The part of the samples that was interrupted.
+    interrupted: f64,
     /// The ratios of the methods to the first one.
     ratios: Vec<Ratio>,
     /// The ratios of every method to itself under another name.
@@ -130,17 +178,34 @@ struct Table {
 }
 
 impl Table {
+    /// Takes the ratios in a process of its own, which has its code and memory in another place.
+    fn of_process(scene: usize, seconds: f64, may_stop: bool) -> Table {
+        let own = std::env::current_exe().expect("the path of this program");
+        let mut process = Command::new(own);
+        process.args(["table", &scene.to_string(), &seconds.to_string()]);
+        let output = process.args(may_stop.then_some("stop")).output();
+        let output = output.expect("this program runs");
+        serde_json::from_slice(&output.stdout).expect("a table")
+    }
+
     /// Takes the ratios, like `fastphong bench`, and stops when they are known if `may_stop`.
-    fn take(frame: &Frame, limits: TimeLimits, may_stop: bool) -> Table {
+    fn take(scene: &TrustScene, seconds: f64, may_stop: bool) -> Table {
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .use_current_thread()
+            .build_global()
+            .expect("no pool before");
+        let limits = TimeLimits {
+            time_budget: Duration::from_secs_f64(seconds),
+            ..TimeLimits::default()
+        };
+        let frame = &scenes::scene(scene.mesh).frame().expect("a valid scene");
+        let renderer = Renderer::on((scene.level)());
         let triangles = triangulated(frame).frame;
         let variants = METHODS.map(|name| Variant::parse(name).expect("a method"));
         let draw = |variant| -> Candidate<'_> {
             Box::new(move || {
-                let _ = black_box(Variant::render_with(
-                    variant,
-                    black_box(frame),
-                    Renderer::LECTURE,
-                ));
+                let _ = black_box(Variant::render_with(variant, black_box(frame), renderer));
             })
         };
         let mut candidates: Vec<Candidate<'_>> = variants.iter().map(draw).collect();
@@ -157,8 +222,12 @@ impl Table {
         let wanted = if may_stop { &pairs[..] } else { &[] };
         let times = time_interleaved(Clock::new(1), &mut candidates, wanted, limits, |_| ());
         let ratio = |(a, b): (usize, usize)| times.ratio(a, b).expect("some time");
+        let noise = times.noise(&pairs);
         Table {
-            noise: times.noise(&pairs),
+            is_too_busy: noise.trust == Trust::TooBusy,
+            interrupted: noise.interrupted,
+            rounds: noise.rounds,
+            sentence: noise.sentence,
             ratios: pairs.iter().copied().map(ratio).collect(),
             twins: twins.map(ratio).collect(),
         }
@@ -189,17 +258,16 @@ struct Score {
 }
 
 impl Score {
-    fn add(&mut self, table: &Table, quiet: &Table) {
-        let is_too_busy = table.noise.trust == Trust::TooBusy;
+    fn add(&mut self, table: &Table, quiet: &[f64]) {
         self.tables += 1;
-        self.too_busy += usize::from(is_too_busy);
-        self.interrupted += table.noise.interrupted;
-        for (ratio, quiet) in table.ratios.iter().zip(&quiet.ratios) {
+        self.too_busy += usize::from(table.is_too_busy);
+        self.interrupted += table.interrupted;
+        for (ratio, quiet) in table.ratios.iter().zip(quiet) {
             self.ratios.push(Judged {
-                error: (ratio.typical / quiet.typical - 1.0).abs(),
-                holds: (ratio.low..=ratio.high).contains(&quiet.typical),
+                error: (ratio.typical / quiet - 1.0).abs(),
+                holds: (ratio.low..=ratio.high).contains(quiet),
                 doubt: ratio.doubt(),
-                is_too_busy,
+                is_too_busy: table.is_too_busy,
             });
         }
         self.twins += table.twins.len();

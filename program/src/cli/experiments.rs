@@ -48,8 +48,8 @@ impl Experiments {
     ) -> Result<(Option<Speedups>, Option<Scaling>), CliError> {
         let (methods, all) = (&timing.methods, self.scenes());
         let (mut speedups, mut scaling) = (SpeedupOptions::default(), ScalingOptions::default());
-        speedups.limits.time_budget = timing.time_budget.saturating_mul(3);
-        scaling.limits.time_budget = timing.time_budget / 8;
+        speedups.limits.time_budget = timing.time_budget.saturating_mul(2);
+        scaling.limits.time_budget = timing.time_budget / 12;
         let speedups = || {
             let mut hear =
                 |part, next: &str| progress(3.0 * part / all, &format!("speedups: {next}"));

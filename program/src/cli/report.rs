@@ -55,7 +55,7 @@ pub struct ReportArgs {
     #[arg(long, value_name = "NAMES", value_parser = experiments)]
     studies: Option<Experiments>,
     /// Draw every scene at its own size instead of at most 480x360, and time every scene for the
-    /// whole --time-budget instead of only the first four
+    /// whole --time-budget instead of only the first two
     #[arg(long)]
     full: bool,
     /// Compare saved `--json` files of several machines or commits side by side, without drawing.
@@ -88,7 +88,7 @@ const SHOWN: [i64; 2] = [480, 360];
 const PICTURES_PART: f32 = 0.9;
 
 /// How many scenes are timed for the whole `--time-budget`.
-const TIMED_LONG: usize = 4;
+const TIMED_LONG: usize = 2;
 
 /// Reads figures separated by commas, without duplicates, or `all` or `none`.
 fn figures(text: &str) -> Result<Figures, String> {

@@ -15,8 +15,6 @@ pub struct Sample {
     pub ns: f64,
     /// The time of processors, in ns: the work of all threads.
     pub work_ns: f64,
-    /// True for the second sample of a turn, which finds its data in the caches.
-    pub is_second: bool,
     /// True if other programs had the processor meanwhile.
     pub is_interrupted: bool,
 }
@@ -42,16 +40,14 @@ pub struct Cost {
 }
 
 /// Returns the cost of an interruption: the median difference between an interrupted sample and one
-/// of the same candidate and place in its turn that was not interrupted. That may be wrong by half;
+/// of the same candidate that was not. That may be wrong by half;
 /// if too few samples show it, it is anything up to the largest one.
 pub fn cost(candidates: &[Vec<Sample>]) -> Cost {
     let mut differences = Vec::new();
     for samples in candidates {
         let is_short = |sample: &&Sample| sample.is_interrupted && sample.ns < LONG_NS;
         for interrupted in samples.iter().filter(is_short) {
-            let is_alike =
-                |other: &&Sample| !other.is_interrupted && other.is_second == interrupted.is_second;
-            let others = samples.iter().filter(is_alike);
+            let others = samples.iter().filter(|other| !other.is_interrupted);
             differences.extend(others.map(|other| interrupted.ns - other.ns));
         }
     }

@@ -16,6 +16,15 @@ pub const RESAMPLES: usize = 2_000;
 /// The number of resamples that decide if a run goes on.
 pub const FEW_RESAMPLES: usize = 200;
 
+/// The number of samples from which on a candidate's own spread is known.
+const LEAST_SAMPLES: usize = 24;
+
+/// The limits of a sample's deviation in spreads. Nine in ten samples are over the typical time, so
+/// those under it are nearer to it than the median; and one that is far over it is as good as one
+/// still farther.
+const NEAREST: f64 = -1.0;
+const FARTHEST: f64 = 10.0;
+
 /// The seed of every bootstrap, so that equal samples have equal intervals.
 const SEED: u64 = 0x4C32_3153_6861_6465;
 
@@ -36,9 +45,11 @@ pub struct Times {
     typical: Vec<f64>,
     /// How far each of these may be wrong because the cost of an interruption is, as a part of it.
     by_cost: Vec<f64>,
-    /// The samples of each round as multiples of their candidate's typical time: those of the
-    /// candidates with one sample in a round, and of those with two.
-    deviations: [Vec<Vec<f64>>; 2],
+    /// How far a candidate's samples are over its typical time, as a logarithm: the median.
+    spread: Vec<f64>,
+    /// How far the samples of each round are over their candidates' typical times, as multiples of
+    /// their candidates' spread.
+    deviations: Vec<Vec<f64>>,
     /// The number of resamples of the bootstrap.
     resamples: usize,
     /// The resamples of each candidate that was asked for.
@@ -62,7 +73,7 @@ impl Times {
             Cost::default()
         };
         let (mut typical, mut by_cost) = (Vec::new(), Vec::new());
-        let mut deviations = [vec![Vec::new(); rounds], vec![Vec::new(); rounds]];
+        let (mut spread, mut deviations) = (Vec::new(), vec![Vec::new(); rounds]);
         for list in &samples {
             let undisturbed = |sample: &Sample| {
                 let cost = if sample.is_interrupted { cost.ns } else { 0.0 };
@@ -79,9 +90,16 @@ impl Times {
             } else {
                 0.0
             });
-            let pool = &mut deviations[samples_per_round(list) - 1];
-            for sample in list.iter().filter(|_| least > 0.0) {
-                pool[sample.round].push(undisturbed(sample) / least);
+            let over = |sample: &Sample| libm::log(undisturbed(sample) / least);
+            let median = if least > 0.0 {
+                quantile(&mut list.iter().map(over).collect::<Vec<_>>(), 0.5)
+            } else {
+                0.0
+            };
+            spread.push(median);
+            for sample in list.iter().filter(|_| median > 0.0) {
+                let deviation = over(sample) / median;
+                deviations[sample.round].push(deviation.clamp(NEAREST, FARTHEST));
             }
         }
         Times {
@@ -93,6 +111,7 @@ impl Times {
             cost,
             typical,
             by_cost,
+            spread,
             deviations,
             resamples,
         }
@@ -122,7 +141,7 @@ impl Times {
                 typical_ns: self.typical[candidate] / calls,
                 low_ns: low / calls,
                 high_ns: high / calls,
-                samples_per_round: samples_per_round(list),
+                samples_per_round: list.len() / self.rounds,
                 interrupted: list.iter().filter(|sample| sample.is_interrupted).count(),
                 ..timing
             })
@@ -201,35 +220,34 @@ impl Times {
     }
 
     /// Returns the typical time of a sample of a candidate in each resample. A resample takes the
-    /// same rounds for all candidates, and from each round the deviations of any of them: a
-    /// candidate alone has too few samples.
+    /// same rounds for all candidates, and from each round the deviations of any of them, because a
+    /// candidate alone has too few samples. It has the candidate's own spread; with few samples,
+    /// which may be alike by chance, at least the median candidate's.
     fn resampled(&self, candidate: usize) -> &[f64] {
         self.resampled[candidate].get_or_init(|| self.resample(candidate))
     }
 
     fn resample(&self, candidate: usize) -> Vec<f64> {
-        let each = samples_per_round(&self.samples[candidate]);
-        let pool = &self.deviations[each - 1];
-        if pool.iter().any(Vec::is_empty) {
+        if self.deviations.iter().any(Vec::is_empty) {
             return Vec::new();
+        }
+        let each = self.samples[candidate].len() / self.rounds;
+        let mut spread = self.spread[candidate];
+        if self.samples[candidate].len() < LEAST_SAMPLES {
+            spread = spread.max(quantile(&mut self.spread.clone(), 0.5));
         }
         let (mut rounds, mut places) = (SplitMix(SEED), SplitMix(SEED + 1 + candidate as u64));
         let mut drawn = Vec::new();
         let time = |_| {
             drawn.clear();
             for _ in 0..self.rounds {
-                let round = &pool[rounds.below(self.rounds)];
+                let round = &self.deviations[rounds.below(self.rounds)];
                 drawn.extend((0..each).map(|_| round[places.below(round.len())]));
             }
-            self.typical[candidate] * quantile(&mut drawn, TYPICAL)
+            self.typical[candidate] * libm::exp(spread * quantile(&mut drawn, TYPICAL))
         };
         (0..self.resamples).map(time).collect()
     }
-}
-
-/// Returns how many samples a candidate has in each round: one, or two.
-fn samples_per_round(samples: &[Sample]) -> usize {
-    1 + usize::from(samples.iter().any(|sample| sample.is_second))
 }
 
 /// Returns the ends of the 95 % interval of resampled values, each farther out by [`UNSEEN`] and by
