@@ -183,6 +183,8 @@ impl Table {
         let own = std::env::current_exe().expect("the path of this program");
         let mut process = Command::new(own);
         process.args(["table", &scene.to_string(), &seconds.to_string()]);
+        // Its own errors are seen, where a table is missing.
+        process.stderr(Stdio::inherit());
         let output = process.args(may_stop.then_some("stop")).output();
         let output = output.expect("this program runs");
         serde_json::from_slice(&output.stdout).expect("a table")

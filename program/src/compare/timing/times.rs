@@ -16,12 +16,13 @@ pub const RESAMPLES: usize = 2_000;
 /// The number of resamples that decide if a run goes on.
 pub const FEW_RESAMPLES: usize = 200;
 
-/// The number of samples from which on a candidate's own spread is known.
+/// The number of samples from which on a candidate's own spread is used alone: then its relative
+/// error is about 1/√24, a fifth. See docs/reliability.md.
 const LEAST_SAMPLES: usize = 24;
 
-/// The limits of a sample's deviation in spreads. Nine in ten samples are over the typical time, so
-/// those under it are nearer to it than the median; and one that is far over it is as good as one
-/// still farther.
+/// The limits of a sample's deviation, in spreads. A candidate whose samples happen to be almost
+/// equal has next to no spread, and a single other sample of it would be thousands of spreads away
+/// in the pool of all. The lowest tenth seldom reaches either limit.
 const NEAREST: f64 = -1.0;
 const FARTHEST: f64 = 10.0;
 
