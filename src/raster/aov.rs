@@ -29,6 +29,7 @@ use core::ops::Range;
 pub fn polygon_indices(frame: &Frame) -> Picture<u32> {
     let mut picture = Picture::new(frame.width(), frame.height(), NO_POLYGON);
     scan(frame, &Varyings::none(), &mut |row, line, _| {
+        let line = line.drawn();
         for (x, polygon) in picture.row_mut(row).iter_mut().enumerate() {
             *polygon = line.polygon(x);
         }
@@ -44,6 +45,7 @@ type VisitRow<'a> = &'a mut dyn FnMut(usize, &dyn Fn(usize) -> u32);
 /// never in memory as a whole.
 pub fn for_each_polygon_row(frame: &Frame, visit: VisitRow<'_>) {
     scan(frame, &Varyings::none(), &mut |row, line, _| {
+        let line = line.drawn();
         visit(row, &|x| line.polygon(x));
     });
 }
@@ -69,7 +71,7 @@ impl Variant {
 pub fn depth(frame: &Frame) -> Picture<f32> {
     let mut picture = Picture::new(frame.width(), frame.height(), f32::INFINITY);
     scan(frame, &Varyings::none(), &mut |row, line, _| {
-        for (pixel, depth) in picture.row_mut(row).iter_mut().zip(line.depth()) {
+        for (pixel, depth) in picture.row_mut(row).iter_mut().zip(line.drawn().depth()) {
             *pixel = depth;
         }
     });

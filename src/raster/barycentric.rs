@@ -196,6 +196,7 @@ pub(super) fn draw(setup: &SetUp<'_>, edges: Edges, target: &mut dyn Target) {
             polygon,
             x: column as u32,
             pixels: 1,
+            to: list.runs.len() as u32,
         });
         match waiting.places.last_mut() {
             Some([x, its_row, count]) if *its_row == row && *x + *count == column => *count += 1,

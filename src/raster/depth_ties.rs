@@ -65,7 +65,8 @@ pub fn depth_ties(frame: &Frame) -> DepthTies {
     let mut equal = ((NO_POLYGON, NO_POLYGON), false);
     scan(frame, &Varyings::none(), &mut |_, line, _| {
         is_tied.fill(false);
-        for span in line.spans() {
+        let line = line.drawn();
+        for span in line.spans {
             let (polygon, mut q) = (span.polygon, span.depth);
             for x in span.start..span.end {
                 let seen = line.polygon(x as usize);

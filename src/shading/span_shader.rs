@@ -340,6 +340,7 @@ impl SpanShader {
             polygon: 0,
             x: first,
             pixels,
+            to: 0,
         };
         let place = SpanPlace {
             y: row,

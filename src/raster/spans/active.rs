@@ -232,41 +232,50 @@ impl<'a> ActiveEdges<'a> {
     // the teapot's frame.
     #[inline(always)]
     pub fn next<'e>(&mut self, new: impl Iterator<Item = &'e TableEdge>, row: i32) {
-        let mut new = new.peekable();
         self.merged.clear();
-        self.merged.reserve(self.edges.len());
-        for i in 0..self.edges.len() {
-            // An edge that ends here is not copied, as edges are large.
-            let edge = &self.edges[i];
-            let (polygon, end, slot) = (edge.polygon, edge.end, edge.slot);
-            // Strictly less: edges of the same polygon follow its stepped edges, and `order` sorts
-            // them later.
-            while let Some(begins) = new.next_if(|begins| begins.polygon < polygon) {
-                self.start_edge(begins, row);
+        let mut stepped = 0;
+        for begins in new {
+            if (self.edges.get(stepped)).is_some_and(|edge| edge.polygon <= begins.polygon) {
+                stepped = self.step_to(begins.polygon, stepped, row);
             }
-            if end <= row {
+            self.start_edge(begins, row);
+        }
+        self.step_to(u32::MAX, stepped, row);
+        core::mem::swap(&mut self.edges, &mut self.merged);
+    }
+
+    /// Steps the edges from index `first` on to scanline `row`, as far as polygon `last`. Returns
+    /// the index of the first edge that it leaves.
+    // A function of its own keeps what the loop needs in registers.
+    #[inline(never)]
+    fn step_to(&mut self, last: u32, first: usize, row: i32) -> usize {
+        for (count, edge) in self.edges[first..].iter().enumerate() {
+            if edge.polygon > last {
+                return first + count;
+            }
+            if edge.end <= row {
                 if self.has_slots {
-                    self.more.free.push(slot);
+                    self.more.free.push(edge.slot);
                 }
                 continue;
             }
-            let mut edge = self.edges[i];
-            edge.advance();
+            // Room first: then the edge goes straight to its place, and not over the stack.
+            self.merged.reserve(1);
+            let mut stepped = *edge;
+            stepped.advance();
+            self.merged.push(stepped);
             if self.has_slots {
-                self.more.advance(slot);
+                self.more.advance(edge.slot);
             }
-            self.merged.push(edge);
         }
-        for begins in new {
-            self.start_edge(begins, row);
-        }
-        core::mem::swap(&mut self.edges, &mut self.merged);
+        self.edges.len()
     }
 
     /// Appends an edge that begins at scanline `row`, with the sub-pixel start: its parameter is
     /// taken at the scanline's centre.
-    #[inline(always)]
+    #[inline(never)]
     fn start_edge(&mut self, edge: &TableEdge, row: i32) {
+        self.merged.reserve(1); // as in `step_to`
         let vertices = self.frame.vertices();
         let [top, bottom] = [edge.top, edge.bottom].map(|v| &vertices[v as usize]);
         let place = |v: &ScreenVertex| [v.x, v.y];
@@ -292,7 +301,13 @@ impl<'a> ActiveEdges<'a> {
     /// Starts the varyings of an edge. Returns the first group, and the slot of the rest.
     #[inline(always)]
     fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
-        let ([a, b], mut slot) = (self.ends(edge), 0);
+        if self.varyings.count == 3 && !self.has_slots {
+            // The fast path: three values, whose count is a literal.
+            let [a, b] = self.ends(3, edge);
+            let ends = [[a[0], a[1], a[2], a[2]], [b[0], b[1], b[2], b[2]]];
+            return (Group::new(ends, parameter), 0);
+        }
+        let ([a, b], mut slot) = (self.ends(self.varyings.count, edge), 0);
         if self.varyings.great_circles {
             let polygon = &self.frame.polygons()[edge.polygon as usize];
             let face = vec3(self.frame.polygon_normal(polygon));
@@ -308,9 +323,10 @@ impl<'a> ActiveEdges<'a> {
         (Group::new([first_of(a), first_of(b)], parameter), slot)
     }
 
-    /// Returns the varyings of the upper and the lower end of an edge.
+    /// Returns the varyings of the upper and the lower end of an edge. `count` must equal
+    /// [`Varyings::count`], as in [`Varyings::of_corner_with`].
     #[inline(always)]
-    pub fn ends(&self, edge: &TableEdge) -> [&'a [f32]; 2] {
+    pub fn ends(&self, count: usize, edge: &TableEdge) -> [&'a [f32]; 2] {
         let (mut corners, polygon) = ([0; 2], edge.polygon);
         if let Per::Corner(_) = self.varyings.per {
             let polygon = &self.frame.polygons()[polygon as usize];
@@ -325,10 +341,8 @@ impl<'a> ActiveEdges<'a> {
                 "corners are numbered within the polygon"
             );
         }
-        [
-            self.varyings.of_corner(polygon, corners[0], edge.top),
-            self.varyings.of_corner(polygon, corners[1], edge.bottom),
-        ]
+        let of = |end| self.varyings.of_corner_with(count, polygon, end);
+        [of([corners[0], edge.top]), of([corners[1], edge.bottom])]
     }
 
     /// Steps all edges to scanline `row` in place, if none of them ends before its centre. Returns
@@ -402,27 +416,17 @@ impl<'a> ActiveEdges<'a> {
     /// polygon by polygon.
     #[inline(always)]
     pub fn spans(&mut self, width: u32, mut visit: impl FnMut(&Self, PolygonSpan)) {
-        let mut first = 0;
-        while first < self.edges.len() {
-            let polygon = self.edges[first].polygon;
-            let mut end = first + 1;
-            while end < self.edges.len() && self.edges[end].polygon == polygon {
-                end += 1;
+        order(self.frame, &mut self.edges);
+        // Parity: a pixel is inside between the first and the second edge of a polygon, the third
+        // and the fourth, and so on. A closed polygon crosses a scanline an even number of times.
+        let (pairs, rest) = self.edges.as_chunks();
+        debug_assert!(rest.is_empty(), "polygons are closed");
+        for (index, pair) in pairs.iter().enumerate() {
+            let [left, right]: &[ActiveEdge; 2] = pair;
+            debug_assert_eq!(left.polygon, right.polygon, "polygons are closed");
+            if let Some(span) = span([left, right], 2 * index as u32, width) {
+                visit(self, span);
             }
-            order(self.frame, &mut self.edges[first..end]);
-            debug_assert!(
-                (end - first).is_multiple_of(2),
-                "a closed polygon crosses a scanline an even number of times"
-            );
-            // Parity: a pixel is inside between the first and the second edge, the third and the
-            // fourth, and so on.
-            for left in (first..end - 1).step_by(2) {
-                let pair = [&self.edges[left], &self.edges[left + 1]];
-                if let Some(span) = span(pair, left as u32, width) {
-                    visit(self, span);
-                }
-            }
-            first = end;
         }
     }
 
@@ -449,6 +453,7 @@ impl<'a> ActiveEdges<'a> {
             polygon: span.polygon,
             x,
             pixels: pixels.len() as u32,
+            to: x,
         });
         if self.varyings.keeps_ends {
             to.places.push(SpanPlace {
@@ -466,8 +471,9 @@ impl<'a> ActiveEdges<'a> {
     /// method asks for them, the varyings at both ends.
     #[inline(always)]
     fn start(&self, span: &PolygonSpan, [t0, dt]: [f32; 2], to: &mut Starts) {
-        let left = &self.edges[span.left as usize];
-        let right = &self.edges[span.left as usize + 1];
+        let [left, right] = &self.edges[span.left as usize..][..2] else {
+            unreachable!("a span has two edges")
+        };
         if self.varyings.count == 3 && self.is_walked && !self.has_slots {
             // The fast path: three values, without a loop.
             let Group { at, step } = self.between([left.varyings, right.varyings], [t0, dt]);
@@ -543,13 +549,16 @@ pub(crate) fn parameter([top, bottom]: [&ScreenVertex; 2], row: i32) -> [f32; 2]
     [t0, (1 << SubPixel::FRAC_NBITS) as f32 / height] // Δt = 1 / (y_2 − y_1)
 }
 
-/// Sorts the edges of a polygon from left to right. Insertion sort suits them: two edges change
+/// Sorts the edges of each polygon from left to right. Insertion sort suits them: two edges change
 /// places only where they cross each other. Ties are decided by the ends of the edges, so the
 /// result depends neither on earlier scanlines nor on the corner that the polygon begins with.
 fn order(frame: &Frame, edges: &mut [ActiveEdge]) {
     for i in 1..edges.len() {
         let mut at = i;
-        while at > 0 && is_before(frame, &edges[at], &edges[at - 1]) {
+        while let Some([a, b]) = edges[..=at].last_chunk()
+            && a.polygon == b.polygon
+            && is_before(frame, b, a)
+        {
             edges.swap(at, at - 1);
             at -= 1;
         }
@@ -558,6 +567,10 @@ fn order(frame: &Frame, edges: &mut [ActiveEdge]) {
 
 /// True if `a` lies left of `b`.
 fn is_before(frame: &Frame, a: &ActiveEdge, b: &ActiveEdge) -> bool {
+    // The common case: they lie in different pixels.
+    if a.crossing.pixel() != b.crossing.pixel() {
+        return a.crossing.pixel() < b.crossing.pixel();
+    }
     let order = a.crossing.compare(&b.crossing);
     order.then_with(|| compare_ends(frame, a, b)) == Ordering::Less
 }

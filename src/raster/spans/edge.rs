@@ -45,7 +45,8 @@ impl EdgeCrossing {
     pub fn new(top: [SubPixel; 2], bottom: [SubPixel; 2], row: i32) -> Self {
         let bits = |c: SubPixel| i64::from(c.to_bits());
         let (x0, y0) = (bits(top[0]), bits(top[1]));
-        let (dx, dy) = (bits(bottom[0]) - x0, bits(bottom[1]) - y0);
+        // At most 24 bits, so the step takes a division of 32 bits, which is faster.
+        let [dx, dy] = [0, 1].map(|axis| (bottom[axis] - top[axis]).to_bits());
         assert!(dy > 0, "a crossing needs an edge that goes down");
         debug_assert!(
             [top, bottom]
@@ -54,6 +55,8 @@ impl EdgeCrossing {
                 .all(|c| c.unsigned_abs() <= Frame::GUARD.unsigned_abs()),
             "coordinates within the guard: the products fit in 64 bits"
         );
+        let (step_pixels, step_rest) = (dx.div_euclid(dy), dx.rem_euclid(dy)); // 3.2, 3.4
+        let [dx, dy] = [dx, dy].map(i64::from);
         let denominator = UNIT * dy;
         let centre = i64::from(row) * UNIT + UNIT / 2;
         // The crossing's distance from the centre of pixel 0, times the denominator.
@@ -63,8 +66,8 @@ impl EdgeCrossing {
         EdgeCrossing {
             pixel: pixel as i32,
             rest: pixel * denominator - numerator,
-            step_pixels: dx.div_euclid(dy) as i32, // 3.2, 3.4: the whole pixels of Δx
-            step_rest: UNIT * dx.rem_euclid(dy),   // and the rest
+            step_pixels,                            // the whole pixels of Δx
+            step_rest: UNIT * i64::from(step_rest), // and the rest
             denominator,
         }
     }

@@ -2,10 +2,10 @@
 //! and the span engine's depth test.
 
 use super::active::PolygonSpan;
+use super::columns::Columns;
 use crate::raster::depth::{CallersDepth, DepthTest, SampleDepth};
 use alloc::vec;
 use alloc::vec::Vec;
-use core::mem::take;
 use core::ops::Range;
 
 /// The index of the span, or of the polygon, at a pixel that shows none.
@@ -31,56 +31,115 @@ fn walk(
     }
 }
 
-/// The nearest span at each pixel of one scanline, and its depth.
+/// The spans of one scanline, and which of them is seen at each pixel.
+///
+/// Where no span lies over another, each is seen whole. Else, and where anyone asks for pixels, the
+/// spans are drawn into a depth buffer of one line.
 #[derive(Debug)]
 pub(crate) struct VisibleLine {
     spans: Vec<PolygonSpan>,
+    /// The columns of the spans, as far as none lies over another.
+    covered: Columns,
+    /// True while no span lies over another.
+    is_apart: bool,
+    /// How many of the spans are drawn.
+    drawn: usize,
     /// The depth at each pixel, and the index of the span seen there.
     pixels: Vec<(f32, u32)>,
-    drawn: Range<usize>,
+    /// The pixels from the first to the last that was drawn.
+    reach: Range<usize>,
     rule: SampleDepth,
+}
+
+/// The pixels of a line on which all spans are drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawnLine<'a> {
+    /// The spans, hidden ones too.
+    pub spans: &'a [PolygonSpan],
+    pixels: &'a [(f32, u32)],
+    rule: &'a SampleDepth,
 }
 
 impl VisibleLine {
     pub fn new(width: usize, rule: SampleDepth) -> Self {
         VisibleLine {
             spans: Vec::new(),
+            covered: Columns::new(width),
+            is_apart: true,
+            drawn: 0,
             pixels: vec![EMPTY; width],
-            drawn: 0..0,
+            reach: width..0,
             rule,
         }
     }
 
     /// Empties the line.
     pub fn clear(&mut self) {
+        if self.drawn > 0 {
+            self.pixels[self.reach.clone()].fill(EMPTY);
+            self.reach = self.pixels.len()..0;
+            self.drawn = 0;
+        }
         self.spans.clear();
-        self.pixels[take(&mut self.drawn)].fill(EMPTY);
+        self.covered.clear();
+        self.is_apart = true;
     }
 
-    /// Draws a span. It is seen where its depth is strictly less than the depths drawn before.
-    pub fn draw(&mut self, span: PolygonSpan) {
-        let index = self.spans.len() as u32;
-        let pixels = span.start as usize..span.end as usize;
-        // An empty range is 0..0 and would pull the start of the union to 0.
-        self.drawn = if self.drawn.is_empty() {
-            pixels.clone()
-        } else {
-            self.drawn.start.min(pixels.start)..self.drawn.end.max(pixels.end)
-        };
-        let pixels = &mut self.pixels[pixels];
-        let rule = self.rule;
-        // The fast path has its own loop, without any other test.
-        if rule.is_plain() {
-            walk(&span, pixels, index, |q, depth| (q < depth).then_some(q));
-        } else {
-            walk(&span, pixels, index, |q, depth| rule.seen(q, depth));
+    /// Adds a span.
+    #[inline(always)]
+    pub fn add(&mut self, span: PolygonSpan) {
+        self.spans.reserve(1); // room first, so that the span stays in registers until it is stored
+        if self.is_apart {
+            self.is_apart = self.covered.add(span.start as usize..span.end as usize);
         }
         self.spans.push(span);
+    }
+
+    /// Draws the spans that are not drawn yet. A span is seen where its depth is strictly less than
+    /// the depths drawn before.
+    fn draw(&mut self) {
+        let (rule, is_plain) = (self.rule, self.rule.is_plain());
+        for (span, index) in self.spans[self.drawn..].iter().zip(self.drawn as u32..) {
+            let pixels = span.start as usize..span.end as usize;
+            self.reach.start = self.reach.start.min(pixels.start);
+            self.reach.end = self.reach.end.max(pixels.end);
+            let pixels = &mut self.pixels[pixels];
+            // The fast path has its own loop, without any other test.
+            if is_plain {
+                walk(span, pixels, index, |q, depth| (q < depth).then_some(q));
+            } else {
+                walk(span, pixels, index, |q, depth| rule.seen(q, depth));
+            }
+        }
+        self.drawn = self.spans.len();
+    }
+
+    /// Returns the pixels, with all spans drawn.
+    pub fn drawn(&mut self) -> DrawnLine<'_> {
+        self.draw();
+        DrawnLine {
+            spans: &self.spans,
+            pixels: &self.pixels,
+            rule: &self.rule,
+        }
+    }
+
+    /// Returns the spans, hidden ones too.
+    pub fn spans(&self) -> &[PolygonSpan] {
+        &self.spans
+    }
+
+    /// True if each span is seen whole, so that none need be drawn.
+    fn is_whole(&self) -> bool {
+        // Depths are finite, so that a sample outside of the NDC cube is the only one that is not
+        // drawn on an empty pixel.
+        self.is_apart && self.drawn == 0 && self.rule.cube.is_none()
     }
 
     /// Empties the pixels that fail the test against the caller's depth. Stores the depths of the
     /// other pixels in the caller's buffer.
     pub fn hide_behind(&mut self, depth: CallersDepth<'_>) {
+        self.draw();
         match depth.test.test {
             DepthTest::Less => self.hide::<false, false>(depth),
             DepthTest::LessOrEqual => self.hide::<false, true>(depth),
@@ -93,10 +152,10 @@ impl VisibleLine {
         &mut self,
         CallersDepth { stored, test }: CallersDepth<'_>,
     ) {
-        let drawn = self.drawn.clone();
-        for (pixel, stored) in self.pixels[drawn.clone()]
+        let reach = self.reach();
+        for (pixel, stored) in self.pixels[reach.clone()]
             .iter_mut()
-            .zip(&mut stored[drawn])
+            .zip(&mut stored[reach])
         {
             if test.hide::<REVERSED, EQUAL>(&mut pixel.0, stored) {
                 *pixel = EMPTY;
@@ -104,6 +163,68 @@ impl VisibleLine {
         }
     }
 
+    /// Calls `visit` with each visible run: a span and the pixels at which it is seen. Runs do not
+    /// overlap, and may come in any order.
+    #[inline(always)]
+    pub fn runs(&mut self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
+        if self.is_whole() {
+            for span in &self.spans {
+                visit(span, span.start as usize..span.end as usize);
+            }
+            return;
+        }
+        self.draw();
+        for (index, pixels) in stretches(&self.pixels, self.reach(), |pixel| pixel.1) {
+            // A stretch of empty pixels has no span.
+            if let Some(span) = self.spans.get(index as usize) {
+                visit(span, pixels);
+            }
+        }
+    }
+
+    /// Calls `visit` with each stretch of pixels at which any span is seen, from left to right.
+    pub fn stretches(&mut self, mut visit: impl FnMut(Range<usize>)) {
+        if self.is_whole() {
+            return self.covered.for_each_stretch(visit);
+        }
+        self.draw();
+        let is_seen = |pixel: &(f32, u32)| pixel.1 != NO_POLYGON;
+        for (is_seen, pixels) in stretches(&self.pixels, self.reach(), is_seen) {
+            if is_seen {
+                visit(pixels);
+            }
+        }
+    }
+
+    /// Returns the pixels from the first to the last that was drawn.
+    fn reach(&self) -> Range<usize> {
+        match self.drawn {
+            0 => 0..0,
+            _ => self.reach.clone(),
+        }
+    }
+}
+
+/// Divides pixels within `reach` into stretches for which `of` returns the same, as long as
+/// possible.
+#[inline(always)]
+fn stretches<T: PartialEq>(
+    pixels: &[(f32, u32)],
+    reach: Range<usize>,
+    of: impl Fn(&(f32, u32)) -> T,
+) -> impl Iterator<Item = (T, Range<usize>)> {
+    let (mut x, mut rest) = (reach.start, &pixels[reach]);
+    core::iter::from_fn(move || {
+        let here = of(rest.first()?);
+        let is_other = |pixel: &(f32, u32)| of(pixel) != here;
+        let count = rest.iter().position(is_other).unwrap_or(rest.len());
+        let start = x;
+        (x, rest) = (x + count, &rest[count..]);
+        Some((here, start..x))
+    })
+}
+
+impl DrawnLine<'_> {
     /// Returns the depth at each pixel, rounded as it is stored; infinite where nothing was drawn.
     pub fn depth(&self) -> impl Iterator<Item = f32> {
         self.pixels.iter().map(|(kept, _)| self.rule.shown(*kept))
@@ -125,29 +246,5 @@ impl VisibleLine {
         self.spans
             .get(self.pixels[x].1 as usize)
             .map_or(NO_POLYGON, |span| span.polygon)
-    }
-
-    /// Returns the spans that were drawn on this line, hidden ones too.
-    pub fn spans(&self) -> &[PolygonSpan] {
-        &self.spans
-    }
-
-    /// Calls `visit` with each visible run, from left to right: a span and the pixels at which it
-    /// is seen.
-    #[inline(always)]
-    pub fn runs(&self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
-        let mut x = self.drawn.start;
-        while x < self.drawn.end {
-            // A stretch of empty pixels is found like any run, but is not visited.
-            let index = self.pixels[x].1;
-            let start = x;
-            x += 1;
-            while x < self.drawn.end && self.pixels[x].1 == index {
-                x += 1;
-            }
-            if index != NO_POLYGON {
-                visit(&self.spans[index as usize], start..x);
-            }
-        }
     }
 }

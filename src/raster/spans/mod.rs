@@ -12,6 +12,7 @@
 //! any shape, every method, every kind of depth buffer.
 
 pub(super) mod active;
+mod columns;
 pub(super) mod edge;
 pub(super) mod edge_table;
 pub(super) mod line;
@@ -44,14 +45,14 @@ pub(super) fn scan(
             continue;
         }
         line.clear();
-        active.spans(frame.width() as u32, |_, span| line.draw(span));
+        active.spans(frame.width() as u32, |_, span| line.add(span));
         visit(row, &mut line, &active);
     }
 }
 
 /// Draws a method's frame into `target`.
 pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
-    // Visible runs of a scanline do not overlap, so their colours fit in one row.
+    // Visible runs of a scanline do not overlap: each pixel has its own place.
     let mut colours = vec![[0.0f32; 3]; setup.frame.width()];
     let mut list = RunList::new(setup.varyings.count);
     scan(setup.frame, &setup.varyings, &mut |row, line, edges| {
@@ -64,13 +65,6 @@ pub(super) fn draw(setup: &SetUp<'_>, target: &mut dyn Target) {
             edges.add_run(span, row, pixels, uniforms, &mut list);
         });
         (setup.kernels.pixels)(&setup.pixels(&list), &mut colours);
-        let mut rest = &colours[..];
-        // Adjacent runs are stored by one call.
-        for touching in list.runs.chunk_by(|a, b| a.x + a.pixels == b.x) {
-            let [first, last] = [&touching[0], &touching[touching.len() - 1]];
-            let (here, others) = rest.split_at((last.x + last.pixels - first.x) as usize);
-            target.store(first.x as usize, row, here);
-            rest = others;
-        }
+        line.stretches(|pixels| target.store(pixels.start, row, &colours[pixels]));
     });
 }

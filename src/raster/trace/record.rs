@@ -262,7 +262,7 @@ impl Recorder<'_> {
         let [t0, dt] = parameter(ends, row as i32);
         let [from, to] = match self.setup.varyings.per {
             Per::Polygon => [&[][..]; 2],
-            _ => self.active.ends(edge),
+            _ => self.active.ends(self.setup.varyings.count, edge),
         };
         TraceEntry {
             edge: self.edge(edge.polygon, edge.corner),
@@ -296,12 +296,13 @@ impl Recorder<'_> {
     /// Draws a span into the line, as the engine does, and records where it was seen.
     fn draw(&mut self, span: &PolygonSpan, states: &[EdgeState]) -> TraceSpan {
         let index = self.line.spans().len() as u32;
-        self.line.draw(*span);
+        self.line.add(*span);
+        let line = self.line.drawn();
         let pixels = span.start as usize..span.end as usize;
         let mut seen: Vec<[usize; 2]> = Vec::new();
         for x in pixels.clone() {
             match seen.last_mut() {
-                _ if self.line.span_at(x) != index => {}
+                _ if line.span_at(x) != index => {}
                 Some(last) if last[1] == x => last[1] += 1,
                 _ => seen.push([x, x + 1]),
             }
@@ -309,7 +310,7 @@ impl Recorder<'_> {
         let mut q = span.depth;
         let depth = |_| {
             let here = self.depth.stored(q);
-            q += span.depth_step; // as `VisibleLine::draw` steps it
+            q += span.depth_step; // as `VisibleLine` steps it
             here
         };
         let [left, right] = [0, 1].map(|i| {
@@ -346,6 +347,7 @@ impl Recorder<'_> {
         let uniforms = setup.uniforms_of(span.polygon);
         self.active
             .add_run(span, row, pixels.clone(), uniforms, &mut self.list);
+        self.list.runs[0].to = 0;
         let job = setup.pixels(&self.list);
         let mut colours = vec![[0.0; 3]; pixels.len()];
         (setup.kernels.pixels)(&job, &mut colours);
@@ -356,7 +358,7 @@ impl Recorder<'_> {
         let [at, by] = self.list.starts.of(0).map(<[f32]>::to_vec);
         let inside = self.inside(&walked);
         TraceRun {
-            span: self.line.span_at(pixels.start) as usize,
+            span: self.line.drawn().span_at(pixels.start) as usize,
             x: pixels.start as u32,
             pixels: pixels.len(),
             t0: span.t0 + (pixels.start as u32 - span.start) as f32 * span.dt, // as `add_run` does

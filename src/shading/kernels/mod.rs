@@ -235,7 +235,7 @@ pub(crate) struct Pixels<'a> {
     pub uniforms: &'a [Uniforms],
     pub extras: Extras,
     pub constants: &'a PolygonConstants,
-    /// The runs. Their pixels follow one another in the output.
+    /// The runs.
     pub list: &'a RunList,
 }
 
@@ -249,13 +249,16 @@ impl<'a> Pixels<'a> {
     fn by_uniforms(
         &self,
     ) -> impl Iterator<Item = (&'a Uniforms, impl Iterator<Item = (usize, &'a Run)>)> {
-        let (uniforms, mut first) = (self.uniforms, 0);
-        let groups = self.list.runs.chunk_by(|a, b| a.uniforms == b.uniforms);
-        groups.map(move |runs| {
-            let here = first..first + runs.len();
+        let (uniforms, runs, mut first) = (self.uniforms, &self.list.runs, 0);
+        core::iter::from_fn(move || {
+            let group = runs.get(first)?.uniforms;
+            // A search instead of `chunk_by`, whose closure is called run by run.
+            let is_other = |run: &Run| run.uniforms != group;
+            let count = runs[first..].iter().position(is_other);
+            let here = first..count.map_or(runs.len(), |count| first + count);
             first = here.end;
-            let uniforms = &uniforms[runs[0].uniforms.0 as usize];
-            (uniforms, here.zip(runs))
+            let runs = here.clone().zip(&runs[here]);
+            Some((&uniforms[group.0 as usize], runs))
         })
     }
 
@@ -276,7 +279,9 @@ impl<'a> Pixels<'a> {
 
 pub(crate) type VertexKernel = fn(&Vertices<'_>, &mut [f32]);
 pub(crate) type PolygonKernel = fn(&[Value], &Uniforms, &Corners<'_, f32>, &mut [f32]) -> u8;
+/// Shades runs: the colours of each go to its own place ([`Run::to`]).
 pub(crate) type PixelKernel = fn(&Pixels<'_>, &mut [[f32; 3]]);
+/// Walks along runs. Their pixels follow one another in the output.
 pub(crate) type WalkKernel = fn(&Pixels<'_>, &mut [f32]);
 
 /// A compiled method.
@@ -491,15 +496,15 @@ fn light<C: Carries, F: Num>(
 }
 
 /// Shades runs one pixel at a time, with the lecture's loop.
-fn pixels<M: Method>(job: &Pixels<'_>, mut out: &mut [[f32; 3]]) {
+fn pixels<M: Method>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
     for (uniforms, runs) in job.by_uniforms() {
-        out = if !is_general::<M>(job, uniforms) {
-            shade_fast_runs::<M>(job, uniforms, runs, out)
+        if !is_general::<M>(job, uniforms) {
+            shade_fast_runs::<M>(job, uniforms, runs, out);
         } else if job.extras.albedo {
-            shade_coloured_runs::<M>(job, uniforms, runs, out)
+            shade_coloured_runs::<M>(job, uniforms, runs, out);
         } else {
-            shade_runs::<M>(job, uniforms, [true, false], runs, out)
-        };
+            shade_runs::<M>(job, uniforms, [true, false], runs, out);
+        }
     }
 }
 
@@ -512,39 +517,39 @@ fn is_general<M: Method>(job: &Pixels<'_>, uniforms: &Uniforms) -> bool {
 /// Shades runs without extras and general light. It is a separate function, so that its loop has
 /// more registers.
 #[inline(never)]
-fn shade_fast_runs<'a, 'b, M: Method>(
+fn shade_fast_runs<'a, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
     runs: impl Iterator<Item = (usize, &'a Run)>,
-    out: &'b mut [[f32; 3]],
-) -> &'b mut [[f32; 3]] {
-    shade_runs::<M>(job, uniforms, [false, false], runs, out)
+    out: &mut [[f32; 3]],
+) {
+    shade_runs::<M>(job, uniforms, [false, false], runs, out);
 }
 
 /// Shades runs with vertex colours. It is a separate function, so that other runs pay nothing for
 /// them.
 #[inline(never)]
-fn shade_coloured_runs<'a, 'b, M: Method>(
+fn shade_coloured_runs<'a, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
     runs: impl Iterator<Item = (usize, &'a Run)>,
-    out: &'b mut [[f32; 3]],
-) -> &'b mut [[f32; 3]] {
-    shade_runs::<M>(job, uniforms, [true, true], runs, out)
+    out: &mut [[f32; 3]],
+) {
+    shade_runs::<M>(job, uniforms, [true, true], runs, out);
 }
 
-/// Shades runs with the same uniforms, and returns the pixels after them.
+/// Shades runs with the same uniforms.
 ///
 /// `general` and `coloured` are literals: without the first there are no extras and no general
 /// light, without the second no vertex colours.
 #[inline(always)]
-fn shade_runs<'a, 'b, M: Method>(
+fn shade_runs<'a, M: Method>(
     job: &Pixels<'_>,
     uniforms: &Uniforms,
     [general, coloured]: [bool; 2],
     runs: impl Iterator<Item = (usize, &'a Run)>,
-    mut out: &'b mut [[f32; 3]],
-) -> &'b mut [[f32; 3]] {
+    out: &mut [[f32; 3]],
+) {
     let stored = uniforms.stored();
     let extras = job.extras.known(general, coloured);
     let lights = stored.lights.len();
@@ -554,19 +559,16 @@ fn shade_runs<'a, 'b, M: Method>(
     for (index, run) in runs {
         let (kind, start) = job.start::<M>(index, run);
         let extra = extras.start(own, &start, 0.0);
-        let (here, rest) = out.split_at_mut(run.pixels as usize);
-        out = rest;
         let run = RunLoop {
             start,
             extra,
             directional,
             extras,
-            here,
+            here: run.of(out),
         };
         // The kind is looked up once per run, so the loop over its pixels does not branch on it.
         method.kinds().visit(kind, run);
     }
-    out
 }
 
 /// The loop over a run's pixels. `visit` is compiled for each kind of polygon.

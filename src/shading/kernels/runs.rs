@@ -27,6 +27,16 @@ pub(crate) struct Run {
     pub x: u32,
     /// How many pixels it has.
     pub pixels: u32,
+    /// Where a [`PixelKernel`](super::PixelKernel) puts its colours: the index of the first.
+    pub to: u32,
+}
+
+impl Run {
+    /// Returns the colours of its pixels among the colours of all runs.
+    #[inline(always)]
+    pub fn of<'c>(&self, colours: &'c mut [[f32; 3]]) -> &'c mut [[f32; 3]] {
+        &mut colours[self.to as usize..][..self.pixels as usize]
+    }
 }
 
 /// The place of a run on its span, for methods that ask for it ([`Needs::spans`]).

@@ -78,6 +78,7 @@ fn start(variant: &Variant, bench: &SpanBench, uniforms: &Uniforms, pixels: usiz
         polygon: 0,
         x: 0,
         pixels: pixels as u32,
+        to: 0,
     };
     let place = SpanPlace {
         y: 0,

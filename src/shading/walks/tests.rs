@@ -446,6 +446,7 @@ mod blocks {
             polygon: 0,
             x: 0,
             pixels: pixels as u32,
+            to: 0,
         };
         let mut list = RunList::new(first.len());
         for pixels in [3, pixels, 9] {

@@ -141,15 +141,12 @@ fn colour<H: Highlight>(lights: &Lights<'_>, normal: Vector) -> u32 {
 
 /// Shades runs, one pixel at a time.
 fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
-    let mut rest = out;
     for (index, run) in job.list.runs.iter().enumerate() {
-        let (here, others) = rest.split_at_mut(run.pixels as usize);
-        rest = others;
         let [a, b] = integers::ends(job, index);
         integers::shade_run(
             job,
             index,
-            here,
+            run.of(out),
             |t| fields(a + (b - a) * t),
             integer::gouraud,
         );

@@ -353,15 +353,13 @@ fn shade(
     draw_line: fn(&Uniforms) -> DrawLine,
     along: impl Fn(usize, f32) -> Vector,
 ) {
-    let (mut index, mut rest) = (0, out);
+    let mut index = 0;
     for runs in (job.list.runs).chunk_by(|a, b| a.uniforms == b.uniforms) {
         let uniforms = &job.uniforms[runs[0].uniforms.0 as usize];
         let (draw, lights) = (draw_line(uniforms), Lights::new(uniforms));
         for run in runs {
-            let (here, others) = rest.split_at_mut(run.pixels as usize);
-            rest = others;
             let at = |t| along(index, t);
-            shade_run(job, index, here, at, |line, first, end| {
+            shade_run(job, index, run.of(out), at, |line, first, end| {
                 let span = integer::Span::new(first, end);
                 draw(job.parameters, span, line, &lights);
             });
@@ -579,6 +577,7 @@ pub(crate) fn counted<M: Method>(
         polygon: 0,
         x: 0,
         pixels: 1,
+        to: 0,
     };
     let [t0, dt] = SpanBench::SPAN;
     let place = SpanPlace {
