@@ -18,7 +18,7 @@ use super::target::{Target, drawn, drawn_anyhow, linear_samples};
 use crate::frame::Frame;
 use crate::picture::{LinearPicture, Picture, Rgb};
 use crate::scene::Interpolation;
-use crate::shading::{RunList, UniformsIndex, Variant};
+use crate::shading::{GROUP, RunList, UniformsIndex, Variant};
 use alloc::vec::Vec;
 use core::ops::Range;
 
@@ -86,7 +86,7 @@ pub fn depth(frame: &Frame) -> Picture<f32> {
 pub fn coverage(frame: &Frame, mut visit: impl FnMut(u32, usize, Range<usize>)) {
     scan(frame, &Varyings::none(), &mut |row, line, _| {
         for span in line.spans() {
-            visit(span.polygon, row, span.start as usize..span.end as usize);
+            visit(span.polygon, row, span.pixels());
         }
     });
 }
@@ -98,13 +98,12 @@ fn interpolate(
     edges: Option<Edges>,
     visit: &mut dyn FnMut(usize, usize, [f32; 4]),
 ) {
-    const COUNT: usize = 4;
-    let values = |at: &[f32]| [at[0], at[1], at[2], at[3]];
-    let mut list = RunList::new(COUNT);
+    let mut list = RunList::new(GROUP);
+    let values = |list: &RunList| list.starts.of(0).0[0];
     match edges {
         Some(edges) => {
             barycentric::scan(frame, varyings, edges, &mut |_, x, row, list| {
-                visit(x, row, values(list.starts.of(0)[0]));
+                visit(x, row, values(list)[0]);
                 list.clear();
             });
         }
@@ -113,7 +112,7 @@ fn interpolate(
                 list.clear();
                 let uniforms = UniformsIndex(0); // nothing is lit
                 edges.add_run(span, row, pixels.clone(), uniforms, &mut list);
-                let [mut at, step] = list.starts.of(0).map(values);
+                let [mut at, step] = values(&list);
                 for x in pixels {
                     visit(x, row, at);
                     at.iter_mut().zip(step).for_each(|(at, step)| *at += step);

@@ -13,7 +13,7 @@ use super::spans::NO_POLYGON;
 use super::target::Target;
 use crate::frame::Frame;
 use crate::picture::Picture;
-use crate::shading::{Run, RunList};
+use crate::shading::{GROUP, Run, RunList};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -137,15 +137,13 @@ pub(super) fn scan(
                 // A run of one pixel takes no step, so its steps are 0.
                 if let Some([x, y, z]) = three {
                     // The fast path: three values, without a loop.
-                    list.starts.push([mix(x), mix(y), mix(z)], [0.0; 3]);
+                    list.starts
+                        .push([mix(x), mix(y), mix(z), 0.0], [0.0; GROUP]);
                 } else {
-                    let [at, _] = list.starts.add();
-                    for (k, at) in at.iter_mut().enumerate() {
-                        *at = match constant {
-                            Some(constant) => constant[k],
-                            None => mix(each(|i| values[i][k])),
-                        };
-                    }
+                    list.starts.add(|k| match constant {
+                        Some(constant) => [constant[k], 0.0],
+                        None => [mix(each(|i| values[i][k])), 0.0],
+                    });
                 }
                 visit(index, column, row, &mut list);
             }

@@ -372,9 +372,9 @@ mod tests {
         fn pixels(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
             const ONE: f32 = 255.0 * 65_536.0;
             for (index, run) in job.list.runs.iter().enumerate() {
-                let [at, step] = job.list.starts.of(index);
-                let fixed = |x: &[f32]| [x[0], x[1], x[2]].map(|x| (x * ONE) as i32);
-                let (mut at, step) = (fixed(at), fixed(step));
+                let values = job.list.starts.of(index);
+                let fixed = |k: usize| [0, 1, 2].map(|i| (values.of(i)[k] * ONE) as i32);
+                let (mut at, step) = (fixed(0), fixed(1));
                 for pixel in run.of(out) {
                     *pixel = at.map(|x| (x >> 16) as f32 * (1.0 / 255.0));
                     at = [0, 1, 2].map(|c| at[c] + step[c]);

@@ -98,7 +98,9 @@ pub use fit::{Fit, On};
 pub(crate) use kernels::gbuffer_cell::CellLayout;
 pub use kernels::operation_counts::OperationCounts;
 pub use kernels::runs::{Corner, Corners, Span};
-pub(crate) use kernels::runs::{PolygonConstants, Run, RunList, SpanPlace, Starts, ramp};
+pub(crate) use kernels::runs::{
+    GROUP, PolygonConstants, Run, RunList, RunValues, SpanPlace, Starts, ramp,
+};
 #[doc(hidden)] // for tests and benchmarks
 pub use kernels::sample_span::SpanBench;
 #[cfg(feature = "simd")]

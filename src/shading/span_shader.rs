@@ -4,8 +4,8 @@ use super::kernels::gbuffer_cell::CellLayout;
 use super::kernels::{RowColours, ShadeRow, SimdKernels, WalkKernel};
 use super::light::Uniforms;
 use super::{
-    Corners, Extras, Kernels, Local, On, Pixels, PolygonConstants, Run, RunList, SpanPlace,
-    UniformsIndex, Variant, Vertices,
+    Corners, Extras, Kernels, Local, On, Pixels, PolygonConstants, Run, RunList, RunValues,
+    SpanPlace, UniformsIndex, Variant, Vertices,
 };
 use crate::frame::{FrameError, guard};
 use crate::number::{BLOCK, SimdLevel};
@@ -393,12 +393,14 @@ impl SimdSpans {
 
     /// Writes the varyings at each pixel, from the value at the first pixel and the growth per
     /// pixel.
-    fn interpolate(&mut self, [at, step]: [&[f32]; 2]) {
+    fn interpolate(&mut self, values: RunValues<'_, f32>) {
+        let count = self.cell.varyings + self.cell.extras;
         let blocks = self.cells.chunks_exact_mut(self.cell.stride());
         for (index, block) in blocks.enumerate() {
             let x = (index * BLOCK) as f32;
             let varyings = block[BLOCK * CellLayout::varying(0)..].as_chunks_mut().0;
-            for (to, (at, step)) in varyings.iter_mut().zip(at.iter().zip(step)) {
+            for (to, varying) in varyings.iter_mut().zip(0..count) {
+                let [at, step] = values.of(varying);
                 let to: &mut [f32; BLOCK] = to;
                 for (k, to) in to.iter_mut().enumerate() {
                     // Each pixel starts from the first one, so that errors do not add up along the

@@ -157,7 +157,7 @@ impl RunQueue {
                 );
                 walked += length * count;
             } else {
-                let [at, step] = self.list.starts.of(i);
+                let values = self.list.starts.of(i);
                 draw_run(
                     m,
                     *place,
@@ -165,7 +165,10 @@ impl RunQueue {
                     &mut writer,
                     #[inline(always)]
                     |index, x| match index - CellLayout::varying(0) {
-                        i if i < count => m.ramp(at[i], x as i32, step[i]),
+                        i if i < count => {
+                            let [at, step] = values.of(i);
+                            m.ramp(at, x as i32, step)
+                        }
                         _ => uniforms,
                     },
                 );

@@ -8,7 +8,7 @@ use crate::number::{Vec3, vec3};
 use crate::raster::depth::SampleDepth;
 use crate::raster::setup::{Per, Varyings, unit};
 use crate::shading::walks::{GreatCircle, Walk};
-use crate::shading::{Run, RunList, SpanPlace, Starts, UniformsIndex, ramp};
+use crate::shading::{GROUP, Run, RunList, SpanPlace, Starts, UniformsIndex, ramp};
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 use core::ops::Range;
@@ -57,11 +57,7 @@ pub(crate) struct EdgeState {
     pub circle: Option<GreatCircle<f32>>,
 }
 
-/// How many values a [`Group`] holds. One group is stored in the edge itself, large enough for a
-/// normal or a colour, and a weight.
-const GROUP: usize = 4;
-
-/// Varyings here, and their growth per scanline.
+/// Varyings here, and their growth per scanline. One group is stored in the edge itself.
 #[derive(Clone, Copy, Debug, Default)]
 struct Group {
     at: [f32; GROUP],
@@ -119,6 +115,14 @@ pub(crate) struct PolygonSpan {
     pub depth: f32,
     /// The step of this value from pixel to pixel.
     pub depth_step: f32,
+}
+
+impl PolygonSpan {
+    /// Returns the columns of its pixels.
+    #[inline(always)]
+    pub fn pixels(&self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
 }
 
 /// The varyings beyond the first group of edges on their way down, or their great circles.
@@ -470,51 +474,35 @@ impl<'a> ActiveEdges<'a> {
     /// Adds a span's varyings at the parameter `t0` and their growth per step of `dt`, or, if the
     /// method asks for them, the varyings at both ends.
     #[inline(always)]
-    fn start(&self, span: &PolygonSpan, [t0, dt]: [f32; 2], to: &mut Starts) {
+    fn start(&self, span: &PolygonSpan, parameter: [f32; 2], to: &mut Starts) {
         let [left, right] = &self.edges[span.left as usize..][..2] else {
             unreachable!("a span has two edges")
         };
-        if self.varyings.count == 3 && self.is_walked && !self.has_slots {
-            // The fast path: three values, without a loop.
-            let Group { at, step } = self.between([left.varyings, right.varyings], [t0, dt]);
-            to.push([at[0], at[1], at[2]], [step[0], step[1], step[2]]);
+        if !self.is_walked {
+            let constant = self.varyings.of_polygon(span.polygon).unwrap_or_default();
+            for values in constant.chunks(GROUP).map(first_of) {
+                let keeps_ends = self.varyings.keeps_ends;
+                to.push(values, if keeps_ends { values } else { [0.0; GROUP] });
+            }
             return;
         }
         if self.varyings.great_circles {
-            let circles = &self.more.circles;
-            let of = |edge: &ActiveEdge| circles[edge.slot as usize].normal().array(); // 4.8
             debug_assert!(self.varyings.keeps_ends, "circles are no straight lines");
-            if self.varyings.count == 3 {
-                to.push(of(left), of(right));
-                return;
-            }
-            let ends = to.add();
-            for (to, edge) in ends.into_iter().zip([left, right]) {
-                let (normal, extras) = to.split_at_mut(3);
-                normal.copy_from_slice(&of(edge));
-                extras.copy_from_slice(&edge.varyings.at[..extras.len()]);
-            }
+            let ends = [left, right];
+            let normals = ends.map(|edge| self.more.circles[edge.slot as usize].normal().array()); // 4.8
+            to.add(|i| match i.checked_sub(3) {
+                None => normals.map(|normal| normal[i]),
+                Some(extra) => ends.map(|edge| edge.varyings.at[extra]),
+            });
             return;
         }
-        let [first, second] = to.add();
-        if let Some(constant) = self.varyings.of_polygon(span.polygon) {
-            first.copy_from_slice(constant);
-            // `second` is the growth otherwise, and `add` left zeros there.
-            if self.varyings.keeps_ends {
-                second.copy_from_slice(constant);
-            }
-            return;
-        }
-        let more = [self.more.groups(left.slot), self.more.groups(right.slot)];
-        let groups = core::iter::once([left.varyings, right.varyings])
-            .chain(more[0].iter().zip(more[1]).map(|(a, b)| [*a, *b]));
-        let places = first.chunks_mut(GROUP).zip(second.chunks_mut(GROUP));
-        for ((first, second), ends) in places.zip(groups) {
-            // The last group may hold more values than there are. They are copied one by one,
-            // because a call to `memcpy` would take longer.
-            let group = self.between(ends, [t0, dt]);
-            for (i, (first, second)) in first.iter_mut().zip(second).enumerate() {
-                (*first, *second) = (group.at[i], group.step[i]);
+        let Group { at, step } = self.between([left.varyings, right.varyings], parameter);
+        to.push(at, step);
+        if self.has_slots {
+            let [left, right] = [left, right].map(|edge| self.more.groups(edge.slot));
+            for (left, right) in left.iter().zip(right) {
+                let Group { at, step } = self.between([*left, *right], parameter);
+                to.push(at, step);
             }
         }
     }

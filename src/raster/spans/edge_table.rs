@@ -82,7 +82,6 @@ pub(crate) fn for_each_edge(
         let corner = if i == 0 { corners.len() - 1 } else { i - 1 } as u32;
         let ends = [from, to].map(|v| (vertices[v as usize].y, v));
         from = to;
-        // Compiles to selections, not to a jump: it is hard to predict which end is the upper one.
         let [(y, top), (end, bottom)] = if ends[0].0 <= ends[1].0 {
             ends
         } else {

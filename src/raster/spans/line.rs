@@ -90,7 +90,7 @@ impl VisibleLine {
     pub fn add(&mut self, span: PolygonSpan) {
         self.spans.reserve(1); // room first, so that the span stays in registers until it is stored
         if self.is_apart {
-            self.is_apart = self.covered.add(span.start as usize..span.end as usize);
+            self.is_apart = self.covered.add(span.pixels());
         }
         self.spans.push(span);
     }
@@ -100,7 +100,7 @@ impl VisibleLine {
     fn draw(&mut self) {
         let (rule, is_plain) = (self.rule, self.rule.is_plain());
         for (span, index) in self.spans[self.drawn..].iter().zip(self.drawn as u32..) {
-            let pixels = span.start as usize..span.end as usize;
+            let pixels = span.pixels();
             self.reach.start = self.reach.start.min(pixels.start);
             self.reach.end = self.reach.end.max(pixels.end);
             let pixels = &mut self.pixels[pixels];
@@ -167,18 +167,20 @@ impl VisibleLine {
     /// overlap, and may come in any order.
     #[inline(always)]
     pub fn runs(&mut self, mut visit: impl FnMut(&PolygonSpan, Range<usize>)) {
+        let mut whole = &[][..];
         if self.is_whole() {
-            for span in &self.spans {
-                visit(span, span.start as usize..span.end as usize);
-            }
-            return;
+            whole = &self.spans;
+        } else {
+            self.draw();
         }
-        self.draw();
-        for (index, pixels) in stretches(&self.pixels, self.reach(), |pixel| pixel.1) {
-            // A stretch of empty pixels has no span.
-            if let Some(span) = self.spans.get(index as usize) {
-                visit(span, pixels);
-            }
+        let whole = whole.iter().map(|span| (span, span.pixels()));
+        // A stretch of empty pixels has no span. Without drawn spans there are no stretches.
+        let pieces = stretches(&self.pixels, self.reach(), |pixel| pixel.1);
+        let pieces =
+            pieces.filter_map(|(index, pixels)| Some((self.spans.get(index as usize)?, pixels)));
+        // A loop over both, so that the code of `visit` is compiled once.
+        for (span, pixels) in whole.chain(pieces) {
+            visit(span, pixels);
         }
     }
 

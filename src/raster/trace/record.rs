@@ -298,7 +298,7 @@ impl Recorder<'_> {
         let index = self.line.spans().len() as u32;
         self.line.add(*span);
         let line = self.line.drawn();
-        let pixels = span.start as usize..span.end as usize;
+        let pixels = span.pixels();
         let mut seen: Vec<[usize; 2]> = Vec::new();
         for x in pixels.clone() {
             match seen.last_mut() {
@@ -355,7 +355,8 @@ impl Recorder<'_> {
         if let Some(walk) = self.walked.walk {
             walk(&job, &mut |run| walked = run);
         }
-        let [at, by] = self.list.starts.of(0).map(<[f32]>::to_vec);
+        let values = self.list.starts.of(0);
+        let all = |k: usize| (0..setup.varyings.count).map(|i| values.of(i)[k]).collect();
         let inside = self.inside(&walked);
         TraceRun {
             span: self.line.drawn().span_at(pixels.start) as usize,
@@ -363,8 +364,8 @@ impl Recorder<'_> {
             pixels: pixels.len(),
             t0: span.t0 + (pixels.start as u32 - span.start) as f32 * span.dt, // as `add_run` does
             dt: span.dt,
-            at,
-            by,
+            at: all(0),
+            by: all(1),
             is_ends: setup.varyings.keeps_ends,
             kind: walked.kind.map(|name| TraceKind {
                 name,

@@ -3,7 +3,7 @@
 use crate::number::{Counted, Counter, Counts, Real, Vec3, vec3};
 use crate::shading::kernels::bench_polygon::BenchPolygon;
 use crate::shading::kernels::colour;
-use crate::shading::kernels::runs::RunStart;
+use crate::shading::kernels::runs::{GROUP, RunStart, RunValues};
 use crate::shading::light::eye_frame::carried;
 use crate::shading::light::{LightAt, Uniforms};
 use crate::shading::walks::values::each;
@@ -75,8 +75,15 @@ pub(crate) fn count<M: Method>(bench: &SpanBench, variant: &Variant) -> CountedS
     let [first, second] = counting.start(M::NEEDS, &ends);
     let mut planned = Vec::new();
     let kind = M::Kinds::put(chosen, |_, value| planned.push(*value));
+    let group = |from: usize| {
+        [&first, &second].map(|values| {
+            let of = |k| values.get(from + k).copied().unwrap_or(counting.zero);
+            core::array::from_fn(of)
+        })
+    };
+    let groups: Vec<_> = (0..first.len()).step_by(GROUP).map(group).collect();
     let start = RunStart {
-        values: [&first, &second],
+        values: RunValues(&groups),
         x: 0,
         pixels: SpanBench::PIXELS,
         place: M::NEEDS.reads_span().then(|| counting.place()),

@@ -59,40 +59,57 @@ pub(crate) struct SpanPlace<T = f32> {
 /// and its growth per pixel; or, for methods that read their span, the values at both ends.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Starts {
-    values: Vec<f32>,
+    /// The groups of all runs: their first values, and their second ones.
+    groups: Vec<[[f32; GROUP]; 2]>,
     /// How many varyings and extras a run has.
     count: usize,
 }
 
+/// How many values a group holds: a normal or a colour, and a weight. Groups are stored without a
+/// loop over their values.
+pub(crate) const GROUP: usize = 4;
+
 impl Starts {
-    /// Adds a run. `N` must be the count of varyings and extras that the list was made for.
+    /// Adds a group. A run has as many as hold its values, one after the other; what fills up the
+    /// last group means nothing.
     #[inline(always)]
-    pub fn push<const N: usize>(&mut self, first: [f32; N], second: [f32; N]) {
-        debug_assert_eq!(self.count, N, "each run has all values that it starts from");
-        self.values
-            .extend_from_slice([first, second].as_flattened());
+    pub fn push(&mut self, first: [f32; GROUP], second: [f32; GROUP]) {
+        self.groups.push([first, second]);
     }
 
-    /// Adds a run of zeros and returns its values to be written: first those at the first pixel, or
-    /// at the left end, then the others.
+    /// Adds all groups of a run. `of` returns the two values of a varying, by its index.
     #[inline(always)]
-    pub fn add(&mut self) -> [&mut [f32]; 2] {
-        let from = self.values.len();
-        self.values.resize(from + 2 * self.count, 0.0);
-        let (first, second) = self.values[from..].split_at_mut(self.count);
-        [first, second]
+    pub fn add(&mut self, of: impl Fn(usize) -> [f32; 2]) {
+        for from in (0..self.count).step_by(GROUP) {
+            let mut group = [[0.0; GROUP]; 2];
+            for i in from..self.count.min(from + GROUP) {
+                [group[0][i - from], group[1][i - from]] = of(i);
+            }
+            self.groups.push(group);
+        }
     }
 
     /// Returns the values of a run.
     #[inline(always)]
-    pub fn of(&self, run: usize) -> [&[f32]; 2] {
-        let values = &self.values[2 * run * self.count..][..2 * self.count];
-        let (first, second) = values.split_at(self.count);
-        [first, second]
+    pub fn of(&self, run: usize) -> RunValues<'_, f32> {
+        let groups = self.count.div_ceil(GROUP);
+        RunValues(&self.groups[run * groups..][..groups])
     }
 
     pub fn clear(&mut self) {
-        self.values.clear();
+        self.groups.clear();
+    }
+}
+
+/// The values that a run starts from, in groups.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RunValues<'a, T>(pub &'a [[[T; GROUP]; 2]]);
+
+impl<T: Copy> RunValues<'_, T> {
+    /// Returns the two values of a varying: see [`Starts`].
+    #[inline(always)]
+    pub fn of(&self, varying: usize) -> [T; 2] {
+        self.0[varying / GROUP].map(|values| values[varying % GROUP])
     }
 }
 
@@ -122,10 +139,8 @@ impl RunList {
     /// Adds a run of a span whose varyings are `a` and `b` at its ends. Stores the run's place if
     /// the method asks for it.
     pub fn add(&mut self, needs: Needs, run: Run, [a, b]: [&[f32]; 2], place: SpanPlace) {
-        let [first, second] = self.starts.add();
-        for i in 0..first.len() {
-            [first[i], second[i]] = needs.start([a[i], b[i]], place.t0, place.dt);
-        }
+        let start = |i| needs.start([a[i], b[i]], place.t0, place.dt);
+        self.starts.add(start);
         self.runs.push(run);
         if needs.reads_span() {
             self.places.push(place);
@@ -172,7 +187,7 @@ enum Start<'a, S: Shader, F: Num> {
 #[derive(Clone, Copy)]
 pub(crate) struct RunStart<'a, T> {
     /// The two values of each varying: see [`Starts`].
-    pub values: [&'a [T]; 2],
+    pub values: RunValues<'a, T>,
     /// The column of the first pixel.
     pub x: u32,
     /// How many pixels the run has.
@@ -244,12 +259,12 @@ impl<'a, S: Shader, F: Num> Span<'a, S, F> {
             each(
                 filled,
                 #[inline(always)]
-                |i, value| *value = run.values[0][i],
+                |i, value| [*value, _] = run.values.of(i),
             ),
             each(
                 filled,
                 #[inline(always)]
-                |i, value| *value = run.values[1][i],
+                |i, value| [_, *value] = run.values.of(i),
             ),
         ]
     }
@@ -315,7 +330,7 @@ impl<T: Num> RunStart<'_, T> {
     /// Returns the value of a varying at the first pixel and its growth per pixel.
     #[inline(always)]
     pub fn ramp(&self, varying: usize) -> [T; 2] {
-        let values = [self.values[0][varying], self.values[1][varying]];
+        let values = self.values.of(varying);
         match self.place {
             None => values,
             Some(SpanPlace { t0, dt, .. }) => ramp(values[0], values[1], t0, dt),

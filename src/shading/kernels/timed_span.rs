@@ -174,7 +174,7 @@ impl Variant {
                     to.copy_from_slice(&row.walked[plane * pixels + first..][..BLOCK]);
                     continue;
                 }
-                let [at, step] = started.list.starts.of(0).map(|values| values[plane]);
+                let [at, step] = started.list.starts.of(0).of(plane);
                 for (k, to) in to.iter_mut().enumerate() {
                     *to = at + (first + k) as f32 * step;
                 }

@@ -451,9 +451,7 @@ mod blocks {
         let mut list = RunList::new(first.len());
         for pixels in [3, pixels, 9] {
             list.runs.push(run(pixels));
-            let [to_first, to_second] = list.starts.add();
-            to_first.copy_from_slice(first);
-            to_second.copy_from_slice(second);
+            list.starts.add(|i| [first[i], second[i]]);
             list.places.push(SpanPlace {
                 y: 0,
                 t0,

@@ -296,8 +296,9 @@ pub(crate) fn circles<M: Line>(job: &Pixels<'_>, out: &mut [[f32; 3]]) {
 
 /// Returns the varyings at both ends of a run's span.
 pub(crate) fn ends(job: &Pixels<'_>, index: usize) -> [Vec3<f32>; 2] {
-    let ends = job.list.starts.of(index);
-    ends.map(|end| vec3([end[0], end[1], end[2]]))
+    let values = job.list.starts.of(index);
+    let [x, y, z] = [0, 1, 2].map(|i| values.of(i));
+    [0, 1].map(|end| vec3([x[end], y[end], z[end]]))
 }
 
 /// A loop that is compiled for a kind of highlight and a count of lights: shades at most [`MOST`]

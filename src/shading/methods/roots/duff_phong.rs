@@ -180,7 +180,8 @@ impl<const L: usize> Shader for DuffPhongLocal<L> {
         let v_n = pixel.nv * over_n * over_v;
         let mut colour = lit.ambient();
         for index in 0..lit.stored.len() {
-            let [ll, ln, lv] = [pixel.ll, pixel.ln, pixel.lv].map(|all| all.values[index]);
+            // By reference: a copy would load all lights at once, and wait for the stores of each.
+            let [ll, ln, lv] = [&pixel.ll, &pixel.ln, &pixel.lv].map(|all| all.values[index]);
             let over_l = one / ll.sqrt();
             let l_n = ln * (over_n * over_l); // L·N / √(N·N L·L)
             let l_v = lv * (over_v * over_l);
