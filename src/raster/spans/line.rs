@@ -1,5 +1,5 @@
-//! The visible line: which span is seen at each pixel of a scanline, by a depth buffer of one line
-//! and the span engine's depth test.
+//! The visible line: which span is seen at each pixel of a scanline. Spans that lie over one another
+//! are drawn into a depth buffer of one line, by the span engine's depth test.
 
 use super::active::PolygonSpan;
 use super::columns::Columns;
@@ -88,6 +88,10 @@ impl VisibleLine {
     /// Adds a span.
     #[inline(always)]
     pub fn add(&mut self, span: PolygonSpan) {
+        debug_assert!(
+            self.rule.cube.is_some() || (span.depth.is_finite() && span.depth_step.is_finite()),
+            "depths between two planes are finite"
+        );
         self.spans.reserve(1); // room first, so that the span stays in registers until it is stored
         if self.is_apart {
             self.is_apart = self.covered.add(span.pixels());
@@ -131,8 +135,8 @@ impl VisibleLine {
 
     /// True if each span is seen whole, so that none need be drawn.
     fn is_whole(&self) -> bool {
-        // Depths are finite, so that a sample outside of the NDC cube is the only one that is not
-        // drawn on an empty pixel.
+        // On an empty pixel every sample is drawn, as depths are finite, unless it is outside of
+        // the NDC cube.
         self.is_apart && self.drawn == 0 && self.rule.cube.is_none()
     }
 
@@ -248,5 +252,84 @@ impl DrawnLine<'_> {
         self.spans
             .get(self.pixels[x].1 as usize)
             .map_or(NO_POLYGON, |span| span.polygon)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::FrameBuilder;
+    use crate::number::test_random::Random;
+    use crate::scene::Clipping;
+
+    const WIDTH: usize = 130;
+
+    fn line(clipping: Clipping) -> VisibleLine {
+        let mut builder = FrameBuilder::new(WIDTH as u32, 1);
+        builder.clipping(clipping);
+        VisibleLine::new(WIDTH, SampleDepth::new(&builder.finish().expect("a frame")))
+    }
+
+    fn span(polygon: u32, pixels: Range<usize>, depth: f32) -> PolygonSpan {
+        PolygonSpan {
+            polygon,
+            left: 0,
+            start: pixels.start as u32,
+            end: pixels.end as u32,
+            t0: 0.0,
+            dt: 0.0,
+            depth,
+            depth_step: 0.001,
+        }
+    }
+
+    /// Returns the polygon at each pixel, by the visible runs. Checks that runs do not overlap, and
+    /// that the stretches are their pixels.
+    fn seen(line: &mut VisibleLine) -> Vec<u32> {
+        let mut seen = vec![NO_POLYGON; WIDTH];
+        line.runs(|span, pixels| {
+            let here = &mut seen[pixels];
+            assert!(here.iter().all(|polygon| *polygon == NO_POLYGON));
+            here.fill(span.polygon);
+        });
+        let mut covered = vec![false; WIDTH];
+        line.stretches(|pixels| covered[pixels].fill(true));
+        assert_eq!(
+            covered,
+            seen.iter().map(|p| *p != NO_POLYGON).collect::<Vec<_>>()
+        );
+        seen
+    }
+
+    #[test]
+    fn spans_that_are_not_drawn_are_seen_as_if_they_were() {
+        let mut random = Random::new(57);
+        let (mut line, mut whole) = (line(Clipping::Planes), 0);
+        for _ in 0..2000 {
+            line.clear();
+            for polygon in 0..random.below(4) as u32 {
+                let start = random.below(WIDTH as u64) as usize;
+                let count = 1 + random.below((WIDTH - start).min(70) as u64) as usize;
+                line.add(span(polygon, start..start + count, random.signed().abs()));
+            }
+            whole += usize::from(line.is_whole());
+            let found = seen(&mut line);
+            let drawn = line.drawn();
+            let expected: Vec<u32> = (0..WIDTH).map(|x| drawn.polygon(x)).collect();
+            assert_eq!(found, expected, "{:?}", line.spans());
+            assert_eq!(seen(&mut line), expected, "drawn: {:?}", line.spans());
+        }
+        assert!(
+            (500..1500).contains(&whole),
+            "{whole} lines of 2000 without overlap"
+        );
+    }
+
+    #[test]
+    fn samples_outside_of_the_cube_are_not_seen() {
+        let mut line = line(Clipping::NdcCube);
+        line.add(span(7, 3..9, 0.9975));
+        let seen = seen(&mut line);
+        assert_eq!(seen[2..7], [NO_POLYGON, 7, 7, 7, NO_POLYGON]);
     }
 }

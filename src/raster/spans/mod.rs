@@ -1,15 +1,15 @@
 //! The span engine: the lecture as written, one pixel at a time.
 //!
 //! ```text
-//! edge table ─► active edges ─► spans ─► line of depth ─► visible runs ─► pixel kernel ─► picture
-//! (by first      ΔI along edges,          which span is      ΔI along spans,
-//!  scanline)     once per scanline       seen at a pixel    once per pixel
+//! edge table ─► active edges ─► spans ─► visible line ─► visible runs ─► pixel kernel ─► picture
+//! (by first      ΔI along edges,          which span is     ΔI along spans,
+//!  scanline)     once per scanline       seen at a pixel   once per pixel
 //! ```
 //!
-//! On each scanline the active edges form spans, and a depth buffer of one line decides which span
-//! is seen at each pixel. Then each visible run is walked and shaded once, so hidden pixels are
-//! never shaded. One call shades all runs of a scanline. This engine draws everything: polygons of
-//! any shape, every method, every kind of depth buffer.
+//! On each scanline the active edges form spans. Where some lie over others, a depth buffer of one
+//! line decides which span is seen at each pixel. Then each visible run is walked and shaded once,
+//! so hidden pixels are never shaded. One call shades all runs of a scanline. This engine draws
+//! everything: polygons of any shape, every method, every kind of depth buffer.
 
 pub(super) mod active;
 mod columns;
