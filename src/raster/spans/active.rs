@@ -232,13 +232,11 @@ impl<'a> ActiveEdges<'a> {
     ///
     /// It merges one list into another in a single pass, so each stepped edge is written once and
     /// not read again before it is used.
-    // Without `always` the rest of the crate decides if this is inlined. Inlining is worth 7 % of
-    // the teapot's frame.
-    #[inline(always)]
     pub fn next<'e>(&mut self, new: impl Iterator<Item = &'e TableEdge>, row: i32) {
         self.merged.clear();
         let mut stepped = 0;
         for begins in new {
+            // Behind the stepped edges of the same polygon, among which `order` sorts it later.
             if (self.edges.get(stepped)).is_some_and(|edge| edge.polygon <= begins.polygon) {
                 stepped = self.step_to(begins.polygon, stepped, row);
             }
@@ -306,7 +304,8 @@ impl<'a> ActiveEdges<'a> {
     #[inline(always)]
     fn start_varyings(&mut self, edge: &TableEdge, parameter: [f32; 2]) -> (Group, u32) {
         if self.varyings.count == 3 && !self.has_slots {
-            // The fast path: three values, whose count is a literal.
+            // The fast path: three values, whose count is a literal. The fourth means nothing; 0
+            // would have to be shuffled in.
             let [a, b] = self.ends(3, edge);
             let ends = [[a[0], a[1], a[2], a[2]], [b[0], b[1], b[2], b[2]]];
             return (Group::new(ends, parameter), 0);
@@ -409,7 +408,7 @@ impl<'a> ActiveEdges<'a> {
                 state.at.extend(group.at);
                 state.by.extend(group.step);
             }
-            // The last group is padded with zeros.
+            // The last group is padded.
             state.at.truncate(self.varyings.count);
             state.by.truncate(self.varyings.count);
             state

@@ -1,5 +1,5 @@
-//! The visible line: which span is seen at each pixel of a scanline. Spans that lie over one another
-//! are drawn into a depth buffer of one line, by the span engine's depth test.
+//! The visible line: which span is seen at each pixel of a scanline. Spans that lie over one
+//! another are drawn into a depth buffer of one line, by the span engine's depth test.
 
 use super::active::PolygonSpan;
 use super::columns::Columns;
