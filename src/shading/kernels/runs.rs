@@ -109,7 +109,8 @@ impl<T: Copy> RunValues<'_, T> {
     /// Returns the two values of a varying: see [`Starts`].
     #[inline(always)]
     pub fn of(&self, varying: usize) -> [T; 2] {
-        self.0[varying / GROUP].map(|values| values[varying % GROUP])
+        let [first, second] = &self.0[varying / GROUP];
+        [first[varying % GROUP], second[varying % GROUP]]
     }
 }
 
