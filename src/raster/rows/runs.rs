@@ -10,7 +10,7 @@ use crate::raster::setup::SetUp;
 use crate::raster::spans::active::ActiveEdges;
 use crate::raster::spans::edge::{EdgeCrossing, first_centre};
 use crate::raster::spans::edge_table::{TableEdge, for_each_edge};
-use crate::shading::{CellLayout, Run, RunList, WalkKernel};
+use crate::shading::{CellLayout, GROUP, Run, RunList, RunValues, WalkKernel};
 use alloc::vec::Vec;
 use core::ops::Range;
 use fearless_simd::{Simd, f32x8, i32x8};
@@ -157,7 +157,7 @@ impl RunQueue {
                 );
                 walked += length * count;
             } else {
-                let values = self.list.starts.of(i);
+                let RunValues(groups) = self.list.starts.of(i);
                 draw_run(
                     m,
                     *place,
@@ -166,8 +166,8 @@ impl RunQueue {
                     #[inline(always)]
                     |index, x| match index - CellLayout::varying(0) {
                         i if i < count => {
-                            let [at, step] = values.of(i);
-                            m.ramp(at, x as i32, step)
+                            let [at, step] = &groups[i / GROUP];
+                            m.ramp(at[i % GROUP], x as i32, step[i % GROUP])
                         }
                         _ => uniforms,
                     },

@@ -109,8 +109,9 @@ impl<T: Copy> RunValues<'_, T> {
     /// Returns the two values of a varying: see [`Starts`].
     #[inline(always)]
     pub fn of(&self, varying: usize) -> [T; 2] {
-        let [first, second] = &self.0[varying / GROUP];
-        [first[varying % GROUP], second[varying % GROUP]]
+        // The whole group is copied, so that loops over literal varyings step four values by one
+        // addition.
+        self.0[varying / GROUP].map(|values| values[varying % GROUP])
     }
 }
 
