@@ -10,6 +10,7 @@ pub mod cli;
 pub mod compare;
 #[cfg(feature = "cli")]
 pub mod diagnose;
+pub mod export;
 pub mod lectures;
 #[cfg(feature = "cli")]
 pub mod report;

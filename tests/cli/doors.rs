@@ -92,6 +92,7 @@ fn every_note_reaches_every_command() {
             format!("compare {input} --methods gouraud --time-budget 0 {size}"),
             format!("trace {input} --line 0 -o trace.json {size}"),
             format!("diagnose picture.png {input}"),
+            format!("export {input} -o out {size}"),
         ] {
             let ended = folder.run(&command);
             let told = ended.err + &ended.out;

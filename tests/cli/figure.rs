@@ -47,9 +47,9 @@ fn unknown_figures_are_rejected_before_anything_is_written() {
         .refused(&["file/page.html: cannot be written"]);
     folder
         .run("figure exercises --pictures file")
-        .refused(&["file: cannot be made"]);
+        .refused(&["file is a file: expected a folder"]);
     folder
         .run("report figure5 --figures sqare")
         .refused(&["unknown figure `sqare`"]);
-    assert_eq!(folder.names(), ["file", "report"], "no page is written");
+    assert_eq!(folder.names(), ["file"], "no page is written");
 }

@@ -78,6 +78,7 @@ const VALUES: &[&str] = &[
     "--output o.png",
     "--painter-key farthest",
     "--pictures p",
+    "--polygons",
     "--print-scene",
     "--radius 2",
     "--reference other.png",
@@ -170,6 +171,7 @@ const COMMANDS: &[(&str, &[&str])] = &[
     ("list methods", SOME),
     ("explain gouraud", SOME),
     ("figure newell -o o.html", SOME),
+    ("export s.toml -o out", SOME),
 ];
 
 /// Commands without flags, or that this build lacks.

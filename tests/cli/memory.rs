@@ -83,6 +83,16 @@ fn a_command_that_does_not_fit_into_the_limit_is_one_error() {
             pixels,
         ),
         (
+            "export builtin:cube --size 8000x8000 -o o.folder",
+            "reference needs about",
+            pixels,
+        ),
+        (
+            "export builtin:knot?polygons=300000 -o o.folder",
+            "the mesh as text needs about 300.0 MB",
+            "expected fewer polygons",
+        ),
+        (
             "report builtin:cube --size 8000x8000",
             "comparing needs about",
             pixels,

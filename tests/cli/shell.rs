@@ -30,7 +30,7 @@ fn every_command_has_a_manual_page() {
     folder.write("file", "");
     folder
         .run("man file")
-        .refused(&["file: cannot be written: "]);
+        .refused(&["file is a file: expected a folder"]);
 }
 
 /// Returns what bash offers for the last of `words`.

@@ -46,6 +46,7 @@ const ROOMS: &[(&str, &str)] = &[
         "program/diagnose",
         "picture number mesh scene frame reference shading raster",
     ),
+    ("program/export", "picture mesh scene frame reference"),
     (
         "program/lectures",
         "picture number mesh scene frame reference shading raster compare program/compare",
@@ -58,7 +59,7 @@ const ROOMS: &[(&str, &str)] = &[
     (
         "program/cli",
         "picture number note mesh scene frame reference shading raster drawing memory notes compare \
-         program/compare program/diagnose program/lectures program/report program/view",
+         program/compare program/diagnose program/export program/lectures program/report program/view",
     ),
 ];
 

@@ -7,6 +7,7 @@
 //! of rasterizers write expect none.
 
 use super::files;
+use crate::export::{HEAD, MADE_BY};
 use fastphong::picture::image_file::{FilePicture, Format};
 use fastphong::picture::{Encoding, Picture8};
 use std::fmt;
@@ -61,6 +62,8 @@ pub enum Contents {
     Markdown,
     /// A page of the manual.
     Manual,
+    /// A file of a scene for other programs, except its picture.
+    Export,
 }
 
 impl Contents {
@@ -76,6 +79,7 @@ impl Contents {
             Contents::Csv => &["csv"],
             Contents::Markdown => &["md"],
             Contents::Manual => &["1"],
+            Contents::Export => &["obj", "mtl", "json", "h", "py", "csv", "txt"],
         }
     }
 
@@ -95,6 +99,8 @@ impl Contents {
             Contents::Page => has(b"<title>fastphong: "),
             Contents::Markdown => has(b"Made by `fastphong "),
             Contents::Manual => has(b".TH fastphong"),
+            // Tables have no comments, so they are known by their columns.
+            Contents::Export => has(MADE_BY.as_bytes()) || bytes.starts_with(HEAD.as_bytes()),
             // No command chooses names for these.
             Contents::Json | Contents::Xml | Contents::Csv => false,
         }
@@ -111,6 +117,7 @@ impl fmt::Display for Contents {
             Contents::Csv => "CSV",
             Contents::Markdown => "Markdown",
             Contents::Manual => "a manual page",
+            Contents::Export => "a scene for other programs",
         })
     }
 }

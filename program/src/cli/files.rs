@@ -452,6 +452,20 @@ pub fn write(
     Ok(())
 }
 
+/// Writes several files, all or none, and makes the folders that they need.
+///
+/// # Errors
+/// If one was read by this command already, or cannot be written.
+pub fn write_together(all: &[(Destination<'_>, &[u8])]) -> Result<(), CliError> {
+    check(&all.iter().map(|(to, _)| *to).collect::<Vec<_>>())?;
+    signals::remove_drafts_at_the_end();
+    let mut together = Replacements::default();
+    for (to, bytes) in all {
+        together.add(to.path, bytes)?;
+    }
+    Ok(together.finish()?)
+}
+
 /// True if there is a plain file at `path`, or behind a link.
 pub fn is_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|found| found.is_file())

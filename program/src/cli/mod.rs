@@ -16,6 +16,7 @@ mod engines;
 mod error;
 mod experiments;
 mod explain;
+mod export;
 mod figure;
 mod files;
 mod frame_times;
@@ -98,6 +99,7 @@ enum Command {
     View(no_view::ViewArgs),
     Report(report::ReportArgs),
     Figure(figure::FigureArgs),
+    Export(export::ExportArgs),
     Diff(diff::DiffArgs),
     Diagnose(diagnose::DiagnoseArgs),
     Trace(trace::TraceArgs),
@@ -127,6 +129,7 @@ impl Cli {
             Command::View(command) => command.run(),
             Command::Report(command) => command.run(log),
             Command::Figure(command) => command.run(log),
+            Command::Export(command) => command.run(log),
             Command::Diff(command) => command.run(log),
             Command::Diagnose(command) => command.run(log),
             Command::Trace(command) => command.run(log),

@@ -222,17 +222,32 @@ impl Output {
     }
 }
 
+/// Writes the bytes of several files, all or none, and makes the folders that they need.
+///
+/// # Errors
+/// As [`Output::write`].
+pub fn write_together<'a>(
+    files: impl IntoIterator<Item = (&'a Output, &'a [u8])>,
+) -> Result<(), CliError> {
+    let files: Vec<_> = files.into_iter().collect();
+    files.iter().try_for_each(|(output, _)| output.check())?;
+    let to = |(output, bytes): &(&'a Output, &'a [u8])| (output.destination(), *bytes);
+    files::write_together(&files.iter().map(to).collect::<Vec<_>>())
+}
+
 /// Returns `path`, the folder that the flag `name` was set to.
 ///
 /// # Errors
-/// If it is `-`, which means standard output everywhere.
+/// If it is `-`, which means standard output everywhere, or a file.
 pub fn folder<'a>(name: &str, path: &'a Path) -> Result<&'a Path, CliError> {
-    if path.as_os_str() == "-" {
-        let problem = format!("{name}: `-` is standard output, not a folder");
-        Err(format!("{problem}: expected a folder").into())
+    let problem = if path.as_os_str() == "-" {
+        "`-` is standard output, not a folder".to_owned()
+    } else if files::is_file(path) {
+        format!("{} is a file", path.display())
     } else {
-        Ok(path)
-    }
+        return Ok(path);
+    };
+    Err(format!("{name}: {problem}: expected a folder").into())
 }
 
 /// Makes a folder if it does not exist.
