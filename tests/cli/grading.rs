@@ -123,6 +123,23 @@ fn the_validator_of_the_page_prints_a_share() {
 }
 
 #[test]
+fn the_numbers_of_the_page_are_right_and_a_mistake_is_printed() {
+    let folder = Folder::new();
+    folder
+        .run("export vase --size 320x240 -o submission")
+        .done();
+    let script = script("numbers.py");
+    let wrong = script.replace("2 * nl * n - l", "nl * n - l");
+    assert_ne!(wrong, script);
+    for (script, is_right) in [(script, true), (&*wrong, false)] {
+        folder.write("submission/numbers.py", script);
+        let done = run(&folder, &["python3", "numbers.py"]);
+        assert!(done.status.success(), "{done:?}");
+        assert_eq!(done.stdout.is_empty(), is_right, "{done:?}");
+    }
+}
+
+#[test]
 fn the_example_of_the_page_is_the_output_of_the_program() {
     let folder = Folder::new();
     folder

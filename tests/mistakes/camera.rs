@@ -70,6 +70,12 @@ impl Camera {
         DVec3::new(right.dot(vector), up.dot(vector), -forward.dot(vector))
     }
 
+    /// Returns a point of world space in the camera's space: to the right, upward and backward of
+    /// the eye.
+    pub fn moved(&self, point: DVec3) -> DVec3 {
+        self.turned(point - self.eye)
+    }
+
     /// Returns the vector of world space whose right, upward and backward parts are `vector`.
     pub fn turned_back(&self, vector: DVec3) -> DVec3 {
         let [right, up, forward] = self.axes;
@@ -114,8 +120,14 @@ impl Camera {
             Viewport::Right | Viewport::LessOnePixel => -y,
         };
         let point = [(x + 1.0) / 2.0 * width, (y + 1.0) / 2.0 * height];
-        if self.corners == ScreenCorners::WholePixels {
-            return point.map(f64::round);
+        match self.corners {
+            ScreenCorners::Exact => {}
+            ScreenCorners::WholePixels | ScreenCorners::WholePixelsTestedThere => {
+                return point.map(f64::round);
+            }
+            ScreenCorners::CutDown | ScreenCorners::CutDownTestedThere => {
+                return point.map(f64::trunc);
+            }
         }
         match self.edges {
             Edges::TopLeft | Edges::BottomRight => point,

@@ -10,8 +10,8 @@ use std::borrow::Cow;
 pub struct Vertex {
     pub seen: Seen,
     pub point: Point,
-    /// The light at the corner, if light is computed at corners.
-    pub colour: DVec3,
+    /// What the student computes at corners: light, or V.
+    pub computed: DVec3,
 }
 
 /// True if a point is between the near and the far plane.
@@ -59,7 +59,8 @@ fn mix(a: &Vertex, b: &Vertex, t: f64) -> Vertex {
             position: vector(a.point.position, b.point.position),
             normal: vector(a.point.normal, b.point.normal),
             length: 1.0,
+            view: None,
         },
-        colour: vector(a.colour, b.colour),
+        computed: vector(a.computed, b.computed),
     }
 }

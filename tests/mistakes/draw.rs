@@ -7,7 +7,7 @@ use crate::mistakes::Mistake;
 use crate::normals::corners_of;
 use crate::options::{
     Culling, Depth, Interpolation, Materials, NormalSign, Options, Overflow, PixelNormal, Rate,
-    Triangles, Weights,
+    SamplePoint, ScreenCorners, Triangles, View, Weights,
 };
 use crate::picture::{Picture, Samples, picture};
 use crate::placed::Placed;
@@ -81,6 +81,12 @@ impl<'a> Canvas<'a> {
             Depth::Farthest => f64::NEG_INFINITY,
             _ => f64::INFINITY,
         };
+        let sample_point = match options.screen_corners {
+            ScreenCorners::WholePixelsTestedThere | ScreenCorners::CutDownTestedThere => {
+                SamplePoint::Corner
+            }
+            _ => options.sample_point,
+        };
         Canvas {
             scene,
             options,
@@ -89,7 +95,7 @@ impl<'a> Canvas<'a> {
                 width,
                 height,
                 edges: variation.edges,
-                sample_point: options.sample_point,
+                sample_point,
                 weights: options.weights,
                 box_end: options.box_end,
             },
@@ -174,8 +180,8 @@ impl<'a> Canvas<'a> {
         self.cut = (points, triangles);
     }
 
-    /// Computes the light at the corners of a polygon, or its single colour, unless light is
-    /// computed at pixels.
+    /// Computes the light at the corners of a polygon, or its single colour. If light is computed
+    /// at pixels, V may still be computed at corners.
     fn light_corners(
         &self,
         lighting: &Lighting,
@@ -183,10 +189,17 @@ impl<'a> Canvas<'a> {
         normal: DVec3,
     ) -> Option<DVec3> {
         match self.options.rate {
-            Rate::Pixel | Rate::MeanNormal => None,
+            Rate::Pixel | Rate::MeanNormal => {
+                if self.options.view == View::AtVertices {
+                    for vertex in vertices {
+                        vertex.computed = lighting.to_eye(&vertex.point);
+                    }
+                }
+                None
+            }
             Rate::Vertex => {
                 for vertex in vertices {
-                    vertex.colour =
+                    vertex.computed =
                         self.clamped(lighting.colour(&self.faced(vertex.point, lighting)));
                 }
                 None
@@ -256,7 +269,7 @@ impl<'a> Canvas<'a> {
         let Vertex {
             seen,
             point,
-            colour,
+            computed,
         } = vertex;
         let [x, y] = self.camera.screen(self.camera.device(seen));
         let w = if self.camera.is_perspective {
@@ -270,7 +283,7 @@ impl<'a> Canvas<'a> {
             (Interpolation::TimesW, _) => w,
             (Interpolation::OfScene, scene::Interpolation::Perspective) => 1.0 / w,
         };
-        let (p, n, c) = (point.position, point.normal, colour);
+        let (p, n, c) = (point.position, point.normal, computed);
         let carried = [p.x, p.y, p.z, n.x, n.y, n.z, c.x, c.y, c.z];
         let depth = self.camera.depth(seen.forward);
         Corner {
@@ -299,21 +312,23 @@ impl<'a> Canvas<'a> {
             return;
         }
         self.depth[at] = depth;
-        let [px, py, pz, nx, ny, nz, r, g, b] = fragment.carried;
+        let [px, py, pz, nx, ny, nz, cx, cy, cz] = fragment.carried;
         let position = DVec3::new(px, py, pz);
         let normal = DVec3::new(nx, ny, nz);
+        let computed = DVec3::new(cx, cy, cz);
         let colour = colour.unwrap_or_else(|| match self.options.rate {
-            Rate::Vertex => DVec3::new(r, g, b),
+            Rate::Vertex => computed,
             _ => {
                 let length = normal.dot(normal).sqrt();
                 let normal = match self.options.pixel_normal {
-                    PixelNormal::AsInterpolated => normal,
+                    PixelNormal::AsInterpolated | PixelNormal::ReflectionAlone => normal,
                     _ => normal / length,
                 };
                 let point = Point {
                     position,
                     normal,
                     length,
+                    view: (self.options.view == View::AtVertices).then_some(computed),
                 };
                 lighting.colour(&self.faced(point, lighting))
             }

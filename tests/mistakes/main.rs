@@ -24,5 +24,6 @@ mod placed;
 mod proof;
 mod raster;
 mod scenes;
+mod sets;
 mod triangulate;
 mod variation;

@@ -59,6 +59,18 @@ mistakes! {
     "light-in-eye-space" light_space = LightSpace::Eye,
         "Read the lights of the scene as if they were in the camera's space, where they move with it.";
 
+    // https://github.com/facebookincubator/momentum/pull/1571
+    "light-by-inverse-rotation" light_space = LightSpace::EyeTurnedBackTwice,
+        "Rotated normals to the camera's space, and lights, which are in world space, by the inverse of that rotation.";
+    "light-moved-to-eye-space" light_space = LightSpace::MovedToEye,
+        "Transformed the lights by the view matrix, and left normals, points and eye in world space.";
+    "light-xy-exchanged" light_axes = LightAxes::XyExchanged,
+        "Exchanged x and y of the lights.";
+    "light-xz-exchanged" light_axes = LightAxes::XzExchanged,
+        "Exchanged x and z of the lights.";
+    "points-in-eye-space" position_space = PositionSpace::Eye,
+        "Passed points in the camera's space to the light, with the positions of lights and eye in world space.";
+
     // --- Materials -------------------------------------------------------------------------
 
     "coefficients-swapped" coefficients = Coefficients::Swapped,
@@ -113,10 +125,32 @@ mistakes! {
         "Used half Lambert, dot(n, l) * 0.5 + 0.5, from a tutorial for games.";
     "diffuse-n-dot-v" diffuse_cosine = DiffuseCosine::NormalView,
         "Used the view vector instead of the light vector in the diffuse term: dot(n, v).";
+    "diffuse-wrapped" diffuse_cosine = DiffuseCosine::Wrapped,
+        "Wrapped the light around: max(0, (dot(n, l) + 0.5) / 1.5).";
+    "diffuse-squared" diffuse_cosine = DiffuseCosine::Squared,
+        "Squared dot(n, l).";
+    "diffuse-of-angle" diffuse_cosine = DiffuseCosine::OfAngle,
+        "Let the diffuse term fall with the angle: 1 - acos(dot(n, l)) / (pi / 2).";
+    "diffuse-in-steps" diffuse_cosine = DiffuseCosine::FourSteps,
+        "Cut dot(n, l) down to quarters for a cartoon: floor(4 * dot(n, l)) / 4.";
     "diffuse-missing" diffuse_term = DiffuseTerm::Missing,
         "Left out the diffuse term.";
     "diffuse-over-pi" diffuse_term = DiffuseTerm::OverPi,
         "Divided the diffuse term by pi, as physically based renderers do.";
+
+    "diffuse-without-shine" diffuse_term = DiffuseTerm::WithoutShine,
+        "Multiplied kd by 1 - ks, so that a surface does not reflect more light than it gets.";
+
+    // --- The sum of the terms --------------------------------------------------------------
+
+    "terms-mixed" terms = Terms::Mixed,
+        "Mixed where one adds: mix(diffuse, light * ks, pow(dot(r, v), n)).";
+    "terms-mixed-with-light" terms = Terms::MixedWithLight,
+        "Mixed where one adds, with the light's colour: mix(diffuse, light, ks * pow(dot(r, v), n)).";
+    "terms-ambient-as-least" terms = Terms::AmbientIsLeast,
+        "Took the ambient term as a lower limit: max(ambient, diffuse + specular).";
+    "terms-larger" terms = Terms::LargerOfTwo,
+        "Took the larger of the diffuse and the specular term of a light, not their sum.";
 
     // --- The specular term -----------------------------------------------------------------
 
@@ -126,6 +160,12 @@ mistakes! {
     // https://github.com/godotengine/godot/issues/50455
     "specular-energy" specular_term = SpecularTerm::EnergyConserving,
         "Multiplied the specular term by (n + 8) / (8 pi), which the scene's ks does not expect.";
+    "specular-energy-of-lobe" specular_term = SpecularTerm::EnergyConservingLobe,
+        "Multiplied the specular term by (n + 2) / (2 pi), which the scene's ks does not expect.";
+    "specular-hue-of-kd" specular_colour = SpecularColour::HueOfKd,
+        "Tinted the specular term as metals do: times kd divided by its largest channel.";
+    "specular-fresnel" fresnel = Fresnel::OneMinusCosine,
+        "Multiplied the specular term by 1 - dot(n, v).";
     // https://github.com/ggambetta/computer-graphics-from-scratch/issues/17
     "specular-times-kd" specular_colour = SpecularColour::LightTimesKd,
         "Multiplied the specular term by the diffuse colour kd instead of ks.";
@@ -147,6 +187,11 @@ mistakes! {
     // https://github.com/community-shaders/skyrim-community-shaders/pull/1517
     "reflection-of-view" reflection = Reflection::OfView,
         "Used the wrong cosine in the reflection: r = 2 (n . v) n - l.";
+    // https://stackoverflow.com/questions/24132774
+    "reflection-bracketed" reflection = Reflection::BracketedDifference,
+        "Put the bracket in the wrong place: r = 2 (n . l) (n - l).";
+    "reflection-bracketed-unit" reflection = Reflection::UnitBracketedDifference,
+        "Put the bracket in the wrong place, and normalised: r = normalize(2 (n . l) (n - l)).";
     // https://github.com/gfxfundamentals/webgl-fundamentals/issues/78
     "half-vector-not-unit" half_vector = HalfVector::NotNormalised,
         "Did not normalise the half vector: h = l + v.";
@@ -155,6 +200,11 @@ mistakes! {
     // https://github.com/glslify/glsl-ggx/issues/1
     "half-vector-difference" half_vector = HalfVector::Difference,
         "Subtracted instead of adding for the half vector: h = normalize(l - v).";
+    "half-vector-of-distances" half_vector = HalfVector::OfDistances,
+        "Added the vectors toward light and eye before they were normalised: h = normalize((light - p) + (eye - p)).";
+    // https://community.khronos.org/t/71420
+    "half-vector-constant" half_vector = HalfVector::Constant,
+        "Computed h once for each light: normalize(normalize(light) + normalize(eye)).";
     // https://github.com/processing/processing/issues/5362
     // https://github.com/glslify/glsl-specular-phong/issues/3
     "gate-missing" gate = Gate::Missing,
@@ -197,6 +247,12 @@ mistakes! {
     // https://github.com/mrdoob/three.js/pull/481
     "view-toward-origin" view = View::TowardOrigin,
         "Took v = normalize(-p), which is right in the camera's space, with p in world space.";
+    "view-of-two-spaces" view = View::OfTwoSpaces,
+        "Subtracted the point in the camera's space from the eye in world space: v = normalize(eye - p).";
+    "view-of-unit-vectors" view = View::DifferenceOfUnits,
+        "Normalised too early: v = normalize(normalize(eye) - normalize(p)).";
+    "view-at-vertices" view = View::AtVertices,
+        "Normalised the vector toward the eye at vertices, interpolated it, and normalised it again.";
     // https://github.com/openframeworks/openFrameworks/issues/6221
     // https://github.com/CesiumGS/cesium/issues/11994
     "view-not-unit" view_length = ViewLength::NotNormalised,
@@ -234,6 +290,9 @@ mistakes! {
     // https://how-to-3d.twodee.org/lighting/interpolating-normals.html
     "normal-not-normalised" pixel_normal = PixelNormal::AsInterpolated,
         "Did not normalise the interpolated normal at each pixel.";
+    // https://github.com/ema2159/tinyrenderer_rs
+    "normal-not-normalised-but-reflection" pixel_normal = PixelNormal::ReflectionAlone,
+        "Did not normalise the interpolated normal at each pixel, but the reflected ray.";
     // L21 4.3 divides by |N|^2 where 4.2 divides by |N|.
     "normal-not-normalised-in-highlights" pixel_normal = PixelNormal::NotInHighlights,
         "Normalised the interpolated normal for the diffuse term, and forgot it for the specular term.";
@@ -282,6 +341,27 @@ mistakes! {
         "Used the mesh's own normals where the scene asks for averaged ones.";
     "crease-ignored" normal_source = NormalSource::WithoutCrease,
         "Ignored the crease angle: sharp edges are smoothed over.";
+    "normals-are-positions" normal_source = NormalSource::Positions,
+        "Used a vertex's position in model space as its normal, which is right for a sphere.";
+    // OBJ files count from 1.
+    "normals-of-vertex-before" normal_index = NormalIndex::Before,
+        "Looked normals up one index too low; the first one is the last of the list.";
+    "normals-of-vertex-after" normal_index = NormalIndex::After,
+        "Looked normals up one index too high; the last one is the first of the list.";
+    "normals-x-negated" normal_axes = NormalAxes::XNegated,
+        "Negated x of the mesh's normals.";
+    "normals-y-negated" normal_axes = NormalAxes::YNegated,
+        "Negated y of the mesh's normals.";
+    "normals-z-negated" normal_axes = NormalAxes::ZNegated,
+        "Negated z of the mesh's normals.";
+    "normals-xy-exchanged" normal_axes = NormalAxes::XyExchanged,
+        "Exchanged x and y of the mesh's normals.";
+    "normals-xz-exchanged" normal_axes = NormalAxes::XzExchanged,
+        "Exchanged x and z of the mesh's normals.";
+    "normals-yz-exchanged" normal_axes = NormalAxes::YzExchanged,
+        "Exchanged y and z of the mesh's normals.";
+    "normals-halved" normal_code = NormalCode::Halved,
+        "Stored normals as colours, (n + 1) / 2, and did not decode them.";
     // https://github.com/bevyengine/bevy/issues/2955
     // https://github.com/KhronosGroup/glTF-Sample-Viewer/issues/60
     // https://github.com/bdero/flutter_scene/issues/140
@@ -299,6 +379,12 @@ mistakes! {
     // https://github.com/oframe/ogl/issues/105
     "normals-in-eye-space" normal_space = NormalSpace::Eye,
         "Transformed normals to the camera's space, and left lights and view vector in world space.";
+
+    // https://github.com/ssloy/tinyrenderer
+    "normals-with-w-of-target" normal_w = NormalW::OfTarget,
+        "Moved normals by the inverse transpose of a view matrix about the target, and normalised all four components: w = dot(n, target).";
+    "normals-with-w-of-eye" normal_w = NormalW::OfEye,
+        "Moved normals by the inverse transpose of the view matrix, and normalised all four components: w = dot(n, eye).";
 
     // https://github.com/rustgd/cgmath/issues/448
     "model-matrix-transposed" model_matrix = ModelMatrix::Transposed,
@@ -356,6 +442,12 @@ mistakes! {
     // https://github.com/gonetz/GLideN64/issues/1731
     "corners-on-whole-pixels" screen_corners = ScreenCorners::WholePixels,
         "Rounded the corners of polygons to whole pixels.";
+    "corners-on-whole-pixels-tested-there" screen_corners = ScreenCorners::WholePixelsTestedThere,
+        "Rounded the corners of polygons to whole pixels, and tested (x, y) of each pixel.";
+    "corners-cut" screen_corners = ScreenCorners::CutDown,
+        "Stored the corners of polygons as integers: (int) x.";
+    "corners-cut-tested-there" screen_corners = ScreenCorners::CutDownTestedThere,
+        "Stored the corners of polygons as integers, and tested (x, y) of each pixel.";
     // https://github.com/dolphin-emu/dolphin/pull/9350
     "culling-reversed" culling = Culling::Reversed,
         "Left out the front faces: the sign of the area was wrong.";
@@ -425,6 +517,10 @@ mistakes! {
         "Wrote blue, green, red.";
     "channels-grey" channels = Channels::Grey,
         "Wrote the mean of the channels to all three of them.";
+    "channels-grb" channels = Channels::Grb,
+        "Wrote green, red, blue.";
+    "channels-rbg" channels = Channels::Rbg,
+        "Wrote red, blue, green.";
     "background-black" background = Background::Black,
         "Left the background black.";
     "background-white" background = Background::White,
@@ -438,4 +534,8 @@ mistakes! {
         "Stored pixels at x * height + y and read them as rows.";
     "layout-one-row-down" layout = Layout::OneRowDown,
         "Flipped y as height - y instead of height - 1 - y: the picture is one row too low.";
+    "layout-one-right-and-up" layout = Layout::OneRightAndUp,
+        "Counted columns and rows from 1 with y upward: the picture is one pixel too far to the right and up.";
+    "layout-one-left-and-down" layout = Layout::OneLeftAndDown,
+        "Wrote pixels one too far to the left and down.";
 }

@@ -22,12 +22,12 @@ use std::thread;
 
 /// Returns the names under which `diagnose` knows a mistake of this table. A diagnosis must contain
 /// one of them. The list is empty for a mistake that `diagnose` does not know.
-fn names(mistake: &str) -> &'static [&'static str] {
+pub fn names(mistake: &str) -> &'static [&'static str] {
     match mistake {
         "light-negated" => &["light-reversed", "normals-reversed"],
         "light-position-alone" => &["position-as-direction"],
         "light-not-unit" => &["light-not-normalised"],
-        "light-in-eye-space" => &["light-in-view-space"],
+        "light-in-eye-space" => &["light-in-view-space", "light-positions-turned"],
         "light-colour-ignored" => &["light-colour-missing", "light-white"],
         "materials-first-of-mesh" | "materials-of-first-object" => &["one-material"],
         "lights-first-only" => &["first-light-only"],
@@ -69,6 +69,7 @@ fn names(mistake: &str) -> &'static [&'static str] {
         "flat-first-vertex" => &["per-face-first-vertex"],
         "flat-mean-normal" => &["per-face-mean"],
         "normal-not-normalised" => &["normals-not-normalised"],
+        "normal-not-normalised-but-reflection" => &["normals-not-normalised-but-r"],
         "interpolation-on-screen" => &["other-interpolation"],
         "normal-faces-viewer" => &["normals-toward-viewer"],
         "normals-reversed" => &["normals-reversed", "light-reversed"],
@@ -86,7 +87,8 @@ fn names(mistake: &str) -> &'static [&'static str] {
         "aspect-on-height" => &["aspect-on-height"],
         "normal-not-normalised-in-highlights" => &["normals-not-normalised-in-highlights"],
         // Terms that are wrong by a factor.
-        "diffuse-over-pi" | "specular-energy" => &["amounts"],
+        "diffuse-over-pi" => &["diffuse-over-pi"],
+        "specular-energy" => &["highlight-normalised-for-h"],
         "light-colour-of-first" => &["light-colour-of-first"],
         "ambient-times-kd" => &["ambient-diffuse-colour"],
         "ambient-attenuated" => &["ambient-with-falloff"],
@@ -125,7 +127,13 @@ fn names(mistake: &str) -> &'static [&'static str] {
         "aspect-missing" => &["aspect-missing"],
         "aspect-inverted" => &["aspect-inverted"],
         "upside-down" => &["upside-down"],
-        "half-pixel" => &["half-pixel-off", "half-pixel-off-back"],
+        // In a mirrored picture, it is off the other way.
+        "half-pixel" => &[
+            "half-pixel-off",
+            "half-pixel-off-back",
+            "half-pixel-off-flipped",
+            "half-pixel-off-flipped-back",
+        ],
         "culling-reversed" => &["cull-front"],
         "culling-missing" => &["cull-none"],
         "depth-reversed" => &["depth-reversed"],
@@ -141,15 +149,57 @@ fn names(mistake: &str) -> &'static [&'static str] {
         "overflow-wraps" => &["wrapped"],
         "overflow-normalised" => &["stretched"],
         "channels-bgr" => &["bgr"],
-        "channels-grey" => &["grey"],
+        "channels-grey" => &["grey", "grey-levels"],
         "layout-right-to-left" => &["mirrored-x"],
         "layout-half-turn" => &["turned"],
         "layout-one-row-down" => &["pixel-off-down"],
+        "light-by-inverse-rotation" => &["lights-by-inverse-rotation"],
+        "light-moved-to-eye-space" => &["lights-moved-to-view-space"],
+        "light-xy-exchanged" => &["light-xy-exchanged"],
+        "light-xz-exchanged" => &["light-xz-exchanged"],
+        "points-in-eye-space" => &["positions-in-view-space"],
+        "diffuse-wrapped" => &["diffuse-wrapped"],
+        "diffuse-squared" => &["diffuse-squared"],
+        "diffuse-of-angle" => &["diffuse-of-angle"],
+        "diffuse-in-steps" => &["diffuse-in-steps"],
+        "diffuse-without-shine" => &["diffuse-times-rest"],
+        "terms-mixed-with-light" => &["mixed-not-added"],
+        "terms-ambient-as-least" => &["ambient-as-floor"],
+        "terms-larger" => &["diffuse-or-highlight"],
+        "specular-energy-of-lobe" => &["highlight-normalised"],
+        "specular-hue-of-kd" => &["highlight-tinted"],
+        "specular-fresnel" => &["highlight-fresnel"],
+        "reflection-bracketed" | "reflection-bracketed-unit" => &["reflection-times-cosine"],
+        "half-vector-of-distances" => &["halfway-of-unnormalised"],
+        "half-vector-constant" => &["halfway-constant"],
+        "view-of-two-spaces" => &["view-of-two-spaces"],
+        "view-of-unit-vectors" => &["view-of-unit-vectors"],
+        "view-at-vertices" => &["view-per-vertex"],
+        "normals-are-positions" => &["normals-are-positions"],
+        "normals-of-vertex-before" => &["normals-of-vertex-before"],
+        "normals-of-vertex-after" => &["normals-of-vertex-after"],
+        "normals-x-negated" => &["normals-x-negated"],
+        "normals-y-negated" => &["normals-y-negated"],
+        "normals-z-negated" => &["normals-z-negated"],
+        "normals-xy-exchanged" => &["normals-xy-exchanged"],
+        "normals-xz-exchanged" => &["normals-xz-exchanged"],
+        "normals-yz-exchanged" => &["normals-yz-exchanged"],
+        "normals-halved" => &["normals-not-decoded"],
+        "normals-with-w-of-target" => &["w-in-normals"],
+        "normals-with-w-of-eye" => &["w-of-eye-in-normals"],
+        "corners-on-whole-pixels-tested-there" => &["corners-rounded-and-sampled-there"],
+        "corners-cut" => &["corners-cut"],
+        "corners-cut-tested-there" => &["corners-cut-and-sampled-there"],
+        "channels-grb" => &["red-green-exchanged"],
+        "channels-rbg" => &["green-blue-exchanged"],
+        "layout-one-right-and-up" => &["pixel-off-right-up"],
+        "layout-one-left-and-down" => &["pixel-off-left-down"],
         _ => &[],
     }
 }
 
-fn diagnosed(scene: &Scene, picture: &Picture) -> Diagnosis {
+/// Asks `diagnose` about a picture.
+pub fn diagnosed(scene: &Scene, picture: &Picture) -> Diagnosis {
     let pixels = picture.pixels.clone();
     let stored = picture::Picture::from_pixels(picture.width, picture.height, pixels);
     let picture = FilePicture::stored(stored.expect("a whole picture"));
@@ -157,6 +207,7 @@ fn diagnosed(scene: &Scene, picture: &Picture) -> Diagnosis {
         scene,
         method: None,
         picture: &picture,
+        at: None,
         light_lengths: &[],
     };
     diagnose(&question, &mut |_| {}).expect("a scene that can be drawn")
@@ -173,7 +224,7 @@ fn is_named(found: &Diagnosis, names: &[&str]) -> bool {
 }
 
 /// Writes the mistakes that a diagnosis names.
-fn said(found: &Diagnosis) -> String {
+pub fn said(found: &Diagnosis) -> String {
     let causes: Vec<String> = found
         .causes
         .iter()
@@ -249,10 +300,11 @@ const DIRTY: Variation = Variation {
 const PAIRS: u64 = 120;
 
 /// Random numbers that are equal in each run.
-struct Random(u64);
+pub struct Random(pub u64);
 
 impl Random {
-    fn below(&mut self, most: u64) -> u64 {
+    /// Returns a number from 0 to less than `most`.
+    pub fn below(&mut self, most: u64) -> u64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)

@@ -1,6 +1,6 @@
 //! Vertex normals, in model space.
 
-use crate::options::{NormalSource as Source, Options, PolygonNormal, VertexNormal};
+use crate::options::{NormalIndex, NormalSource as Source, Options, PolygonNormal, VertexNormal};
 use crate::triangulate::{newell, triangulate};
 use fastphong::mesh::PolygonMesh;
 use fastphong::mesh::vertex_normals::NormalSource;
@@ -28,6 +28,55 @@ enum Smoothing {
 
 /// Computes the normals of `mesh` from `source`.
 pub fn normals(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> Normals {
+    if options.normal_source == Source::Positions {
+        of_positions(mesh)
+    } else {
+        of_surface(mesh, source, options)
+    }
+}
+
+/// Takes the positions of `mesh` as its normals.
+fn of_positions(mesh: &PolygonMesh) -> Normals {
+    let mut points = Vec::new();
+    let mut normals = Normals {
+        corners: Vec::new(),
+        polygons: Vec::new(),
+    };
+    for p in 0..mesh.polygon_count() {
+        corners_of(mesh, p, &mut points);
+        normals.polygons.push(unit_or_zero(newell(&points)));
+        let directions = points
+            .iter()
+            .map(|point| unit_or_zero(*point + mesh.origin()));
+        normals.corners.extend(directions);
+    }
+    normals
+}
+
+/// Returns the place in a list of `count` normals that the student reads for place `index`.
+fn read_at(index: usize, count: usize, how: NormalIndex) -> usize {
+    match how {
+        NormalIndex::Own => index,
+        NormalIndex::Before => (index + count - 1) % count,
+        NormalIndex::After => (index + 1) % count,
+    }
+}
+
+/// Exchanges the normals of corners for those of the vertices beside them in the file's list. A
+/// vertex with several normals counts with that of its first corner.
+fn exchange(mesh: &PolygonMesh, corners: &mut [DVec3], how: NormalIndex) {
+    let mut of_vertex = vec![None; mesh.positions().len()];
+    for (&vertex, normal) in mesh.corners().iter().zip(corners.iter()) {
+        of_vertex[vertex as usize].get_or_insert(*normal);
+    }
+    for (&vertex, normal) in mesh.corners().iter().zip(corners) {
+        let other = of_vertex[read_at(vertex as usize, of_vertex.len(), how)];
+        *normal = other.unwrap_or(*normal);
+    }
+}
+
+/// Computes the normals of `mesh` from its surface, or takes its own.
+fn of_surface(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> Normals {
     let mut points = Vec::new();
     let mut sums = Vec::with_capacity(mesh.polygon_count());
     for p in 0..mesh.polygon_count() {
@@ -43,7 +92,8 @@ pub fn normals(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> N
             Some(corners) => corners[corner],
             None => mesh.corners()[corner],
         };
-        let normal = given.values[index as usize].as_dvec3();
+        let index = read_at(index as usize, given.values.len(), options.normal_index);
+        let normal = given.values[index].as_dvec3();
         (normal != DVec3::ZERO).then(|| unit_or_zero(normal))
     };
     let count = mesh.corners().len();
@@ -52,6 +102,9 @@ pub fn normals(mesh: &PolygonMesh, source: NormalSource, options: &Options) -> N
         return Normals { corners, polygons };
     }
     let mut corners = averages(mesh, &sums, &polygons, smoothing, options);
+    if options.normal_index != NormalIndex::Own {
+        exchange(mesh, &mut corners, options.normal_index);
+    }
     for (corner, normal) in corners.iter_mut().enumerate() {
         *normal = given_at(corner).unwrap_or(*normal);
     }
@@ -67,7 +120,7 @@ fn rule(source: NormalSource, wrong: Source) -> (bool, Smoothing) {
         NormalSource::Crease(degrees) => (false, Smoothing::Crease(degrees.to_radians().cos())),
     };
     match wrong {
-        Source::OfScene => (takes_given, smoothing),
+        Source::OfScene | Source::Positions => (takes_given, smoothing),
         Source::AlwaysAveraged => (false, smoothing),
         Source::AlwaysGiven => (true, smoothing),
         Source::WithoutCrease => match smoothing {

@@ -20,7 +20,11 @@ ways! {
     /// The length of L, if a light has a position.
     LightLength: Unit | NotNormalised;
     /// The space that the scene's lights are assumed to be in.
-    LightSpace: World | Object | Eye;
+    LightSpace: World | Object | Eye | MovedToEye | EyeTurnedBackTwice;
+    /// The axes of lights' directions and positions.
+    LightAxes: AsGiven | XyExchanged | XzExchanged;
+    /// The space that points are in when L and V are computed; lights and eye are in world space.
+    PositionSpace: World | Eye;
     /// The coefficients ka, kd and ks.
     Coefficients: Right | Swapped | Decoded;
     /// The material of a polygon.
@@ -30,21 +34,25 @@ ways! {
     /// The lights that count.
     Lights: Sum | First | Last | Mean;
     /// The value used for L·N.
-    DiffuseCosine: Clamped | NotClamped | Absolute | Half | NormalView;
+    DiffuseCosine: Clamped | NotClamped | Absolute | Half | NormalView | Wrapped | Squared | OfAngle | FourSteps;
     /// The diffuse term.
-    DiffuseTerm: Whole | Missing | OverPi;
+    DiffuseTerm: Whole | Missing | OverPi | WithoutShine;
     /// The specular term.
-    SpecularTerm: Whole | Missing | EnergyConserving;
+    SpecularTerm: Whole | Missing | EnergyConserving | EnergyConservingLobe;
     /// The colour of the specular term.
-    SpecularColour: LightTimesKs | LightTimesKd | KsAlone;
+    SpecularColour: LightTimesKs | LightTimesKd | KsAlone | HueOfKd;
+    /// The factor of the specular term at grazing angles.
+    Fresnel: Without | OneMinusCosine;
+    /// The way in which ambient, diffuse and specular terms become one colour.
+    Terms: Added | Mixed | MixedWithLight | AmbientIsLeast | LargerOfTwo;
     /// The ambient term.
     Ambient: Right | Missing | PerLight | WithoutKa | WithoutIa | TimesKd | Attenuated;
     /// The cosine that is raised to the exponent.
     HighlightCosine: OfScene | NormalView | NormalLight | OtherModel;
     /// The reflected vector R.
-    Reflection: Right | Negated | WithoutTwo | OfView;
+    Reflection: Right | Negated | WithoutTwo | OfView | BracketedDifference | UnitBracketedDifference;
     /// The vector H halfway between L and V.
-    HalfVector: Unit | NotNormalised | Mean | Difference;
+    HalfVector: Unit | NotNormalised | Mean | Difference | OfDistances | Constant;
     /// The cosine of a highlight if it is below 0.
     SpecularClamp: Clamped | NotClamped;
     /// Highlights of lights behind the surface.
@@ -52,7 +60,7 @@ ways! {
     /// The exponent.
     Exponent: Right | Missing | Factor | Times128 | OfProduct | NotConverted | DividedByFour;
     /// The vector V.
-    View: OfScene | Negated | AlongZ | AlwaysAtEye | AlwaysFarAway | TowardOrigin;
+    View: OfScene | Negated | AlongZ | AlwaysAtEye | AlwaysFarAway | TowardOrigin | OfTwoSpaces | DifferenceOfUnits | AtVertices;
     /// The length of V, if the eye has a position.
     ViewLength: Unit | NotNormalised;
     /// The falloff of lights at positions.
@@ -60,7 +68,7 @@ ways! {
     /// The place where light is computed.
     Rate: Pixel | Vertex | Face | FirstVertex | MeanNormal;
     /// The interpolated normal at a pixel.
-    PixelNormal: Normalised | AsInterpolated | NotInHighlights | RootInHighlights;
+    PixelNormal: Normalised | AsInterpolated | ReflectionAlone | NotInHighlights | RootInHighlights;
     /// The side to which a normal points.
     NormalSign: Outside | TowardViewer;
 
@@ -71,11 +79,19 @@ ways! {
     /// The vectors that are summed at a vertex.
     VertexNormal: UnitNormals | AreaWeighted | AngleWeighted | LastPolygon | EachTriangle | SumKept;
     /// The source of vertex normals.
-    NormalSource: OfScene | AlwaysAveraged | AlwaysGiven | WithoutCrease;
+    NormalSource: OfScene | AlwaysAveraged | AlwaysGiven | WithoutCrease | Positions;
+    /// The vertex whose normal a vertex has.
+    NormalIndex: Own | Before | After;
+    /// The axes of normals, in model space.
+    NormalAxes: AsGiven | XNegated | YNegated | ZNegated | XyExchanged | XzExchanged | YzExchanged;
+    /// The numbers that stand for a normal.
+    NormalCode: Plain | Halved;
     /// The transform of normals from model space to world space.
     NormalTransform: InverseTranspose | Matrix | Inverse | Missing | AsPoint;
     /// The space that normals are in when light is computed; lights are in world space.
     NormalSpace: World | Eye;
+    /// The fourth component of normals behind a matrix of four rows.
+    NormalW: Dropped | OfTarget | OfEye;
 
     /// The scale of a perspective picture.
     FieldOfView: Right | Degrees | NotHalved | Horizontal;
@@ -96,7 +112,7 @@ ways! {
     /// The point of a pixel that is tested.
     SamplePoint: Centre | Corner;
     /// Corners of polygons on the screen.
-    ScreenCorners: Exact | WholePixels;
+    ScreenCorners: Exact | WholePixels | WholePixelsTestedThere | CutDown | CutDownTestedThere;
 
     /// Polygons seen from behind.
     Culling: OfScene | Missing | Reversed;
@@ -120,11 +136,11 @@ ways! {
     /// The treatment of colours brighter than 1.
     Overflow: Clamped | Wraps | DividedByBrightest | DividedByOwnLargest | ToneMapped;
     /// The order of channels.
-    Channels: Rgb | Bgr | Grey;
+    Channels: Rgb | Bgr | Grey | Grb | Rbg;
     /// The colour where nothing is drawn.
     Background: OfScene | Black | White;
     /// The order of pixels in the file.
-    Layout: Rows | RightToLeft | HalfTurn | Columns | OneRowDown;
+    Layout: Rows | RightToLeft | HalfTurn | Columns | OneRowDown | OneRightAndUp | OneLeftAndDown;
 }
 
 /// The way in which a renderer does each step. The default does all steps right.
@@ -133,6 +149,8 @@ pub struct Options {
     pub light_direction: LightDirection,
     pub light_length: LightLength,
     pub light_space: LightSpace,
+    pub light_axes: LightAxes,
+    pub position_space: PositionSpace,
     pub coefficients: Coefficients,
     pub materials: Materials,
     pub light_colour: LightColour,
@@ -141,6 +159,8 @@ pub struct Options {
     pub diffuse_term: DiffuseTerm,
     pub specular_term: SpecularTerm,
     pub specular_colour: SpecularColour,
+    pub fresnel: Fresnel,
+    pub terms: Terms,
     pub ambient: Ambient,
     pub highlight_cosine: HighlightCosine,
     pub reflection: Reflection,
@@ -158,8 +178,12 @@ pub struct Options {
     pub polygon_normal: PolygonNormal,
     pub vertex_normal: VertexNormal,
     pub normal_source: NormalSource,
+    pub normal_index: NormalIndex,
+    pub normal_axes: NormalAxes,
+    pub normal_code: NormalCode,
     pub normal_transform: NormalTransform,
     pub normal_space: NormalSpace,
+    pub normal_w: NormalW,
     pub field_of_view: FieldOfView,
     pub half_height: HalfHeight,
     pub aspect: Aspect,

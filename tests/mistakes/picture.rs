@@ -97,6 +97,8 @@ fn store(colour: DVec3, alpha: f64, options: &Options, scene: &Scene) -> [u8; 4]
     match options.channels {
         Channels::Rgb => [r, g, b, alpha],
         Channels::Bgr => [b, g, r, alpha],
+        Channels::Grb => [g, r, b, alpha],
+        Channels::Rbg => [r, b, g, alpha],
         Channels::Grey => {
             let grey = ((u16::from(r) + u16::from(g) + u16::from(b)) / 3) as u8;
             [grey, grey, grey, alpha]
@@ -152,6 +154,8 @@ fn laid_out(picture: Picture, layout: Layout) -> Picture {
             // Written to x · height + y, read row by row.
             Layout::Columns => (at % height) * width + at / height,
             Layout::OneRowDown => y.saturating_sub(1) * width + x,
+            Layout::OneRightAndUp => (y + 1).min(height - 1) * width + x.saturating_sub(1),
+            Layout::OneLeftAndDown => y.saturating_sub(1) * width + (x + 1).min(width - 1),
         }
     };
     let pixels = (0..count).map(|at| pixels[from(at)]).collect();

@@ -5,7 +5,8 @@ use crate::clip::{Vertex, clipped, is_inside};
 use crate::lighting::Point;
 use crate::normals::{Normals, normals};
 use crate::options::{
-    MirroredWinding, ModelMatrix, NormalSpace, NormalTransform, Options, VertexNormal,
+    MirroredWinding, ModelMatrix, NormalAxes, NormalCode, NormalSpace, NormalTransform, Options,
+    VertexNormal,
 };
 use fastphong::mesh::PolygonMesh;
 use fastphong::scene::Object;
@@ -21,6 +22,8 @@ pub struct Placed<'a> {
     /// The transform of a normal: a matrix, and a vector that is added.
     normal_matrix: DMat3,
     normal_offset: DVec3,
+    normal_axes: NormalAxes,
+    normal_code: NormalCode,
     /// True if vertex normals are unit vectors in the world.
     is_unit: bool,
     is_in_eye_space: bool,
@@ -52,6 +55,8 @@ impl<'a> Placed<'a> {
             positions: positions.collect(),
             normal_matrix,
             normal_offset,
+            normal_axes: options.normal_axes,
+            normal_code: options.normal_code,
             is_unit: options.vertex_normal != VertexNormal::SumKept,
             is_in_eye_space: options.normal_space == NormalSpace::Eye,
             is_reversed: matrix.determinant() < 0.0 && is_restored,
@@ -68,7 +73,7 @@ impl<'a> Placed<'a> {
                 Vertex {
                     seen,
                     point: Point::new(position, normal),
-                    colour: DVec3::ZERO,
+                    computed: DVec3::ZERO,
                 }
             })
             .collect()
@@ -79,9 +84,27 @@ impl<'a> Placed<'a> {
         self.to_world(self.normals.polygons[p], true)
     }
 
+    /// Returns a normal of the world as the student reads it from a file.
+    fn read(&self, n: DVec3) -> DVec3 {
+        let n = match self.normal_axes {
+            NormalAxes::AsGiven => n,
+            NormalAxes::XNegated => DVec3::new(-n.x, n.y, n.z),
+            NormalAxes::YNegated => DVec3::new(n.x, -n.y, n.z),
+            NormalAxes::ZNegated => DVec3::new(n.x, n.y, -n.z),
+            NormalAxes::XyExchanged => DVec3::new(n.y, n.x, n.z),
+            NormalAxes::XzExchanged => DVec3::new(n.z, n.y, n.x),
+            NormalAxes::YzExchanged => DVec3::new(n.x, n.z, n.y),
+        };
+        match self.normal_code {
+            // A polygon without area has no normal to read.
+            NormalCode::Halved if n != DVec3::ZERO => n / 2.0 + 0.5,
+            NormalCode::Plain | NormalCode::Halved => n,
+        }
+    }
+
     fn to_world(&self, normal: DVec3, is_unit: bool) -> DVec3 {
         let vector = self.normal_matrix * normal + self.normal_offset;
-        let vector = if is_unit { unit(vector) } else { vector };
+        let vector = self.read(if is_unit { unit(vector) } else { vector });
         if self.is_in_eye_space {
             self.camera.turned(vector)
         } else {

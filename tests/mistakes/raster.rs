@@ -4,7 +4,7 @@ use crate::options::{BoxEnd, SamplePoint, Weights};
 use crate::variation::Edges;
 use std::array::from_fn;
 
-/// The varyings of a corner: position, normal and colour.
+/// The varyings of a corner: position, normal, and what is computed there.
 pub const CARRIED: usize = 9;
 
 /// A corner of a polygon on the screen.

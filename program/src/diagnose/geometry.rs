@@ -1,6 +1,8 @@
 //! The geometry of a recipe: the frame of a scene that someone with these mistakes draws.
 
-use super::recipe::{Aspect, Cut, Depth, Geometry, Interpolated, Lens, Mirrored, Near, Snapping};
+use super::recipe::{
+    Aspect, Cut, Depth, Eye, Geometry, Interpolated, Lens, Mirrored, Near, Snapping,
+};
 use fastphong::frame::triangulate::triangulated;
 use fastphong::frame::{Frame, Polygon, PreparedScene, SubPixel};
 use fastphong::scene::{
@@ -56,6 +58,14 @@ impl Geometry {
         }
         if self.near == Near::Divided {
             scene.clipping = Clipping::NdcCube;
+        }
+        let behind = scene.camera.eye - scene.camera.target;
+        match (self.eye, scene.camera.projection) {
+            (Eye::Behind, _) => scene.camera.eye += behind,
+            (Eye::BehindByFocalLength, Projection::Perspective { fovy }) => {
+                scene.camera.eye += behind.normalize_or_zero() / libm::tan(0.5 * fovy.to_radians());
+            }
+            _ => {}
         }
         let extent = self.extent(scene)?;
         scene.camera.projection = extent.projection;
@@ -157,7 +167,11 @@ impl Geometry {
             let at = match self.corners {
                 Snapping::Fine => at,
                 Snapping::WholePixels => libm::rint(at),
+                Snapping::WholePixelsAtCorners => libm::rint(at) + 0.5 * samples,
+                Snapping::CutDown => libm::floor(at),
+                Snapping::CutDownAtCorners => libm::floor(at) + 0.5 * samples,
                 Snapping::LessOne => at * (size[axis] - 1.0) / size[axis],
+                Snapping::LessOneAtCorners => at * (size[axis] - 1.0) / size[axis] + 0.5 * samples,
             };
             fastphong::frame::sub_pixel(at.clamp(-limit, limit))
         };

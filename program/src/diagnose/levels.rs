@@ -45,32 +45,55 @@ impl Levels {
         let [r, g, b] = colour.to_array();
         if self.is_plain_srgb() {
             let levels = [r, g, b].map(|c| f32::from(Encoder::srgb().level(c as f32)));
-            return match self.storage.channels {
-                Channels::Bgr => [levels[2], levels[1], levels[0]],
-                _ => levels,
-            };
+            return self.exchanged(levels);
         }
         let stored = [r, g, b].map(|c| self.stored(c));
         let mean = stored.iter().sum::<f64>() / 3.0;
-        let [r, g, b] = stored;
         let channels = match self.storage.channels {
-            Channels::Rgb => [r, g, b],
-            Channels::Bgr => [b, g, r],
             Channels::Grey => [mean; 3],
+            _ => self.exchanged(stored),
         };
-        channels.map(|c| self.level(c) as f32)
+        let levels = channels.map(|c| self.level(c) as f32);
+        match self.storage.channels {
+            Channels::GreyOfLevels => [libm::floorf(levels.iter().sum::<f32>() / 3.0); 3],
+            _ => levels,
+        }
+    }
+
+    fn exchanged<T>(&self, channels: [T; 3]) -> [T; 3] {
+        Levels::exchanged_of(self.storage, channels)
+    }
+
+    /// Returns the channels in the order in which they are stored.
+    pub fn exchanged_of<T>(storage: Storage, [r, g, b]: [T; 3]) -> [T; 3] {
+        match storage.channels {
+            Channels::Rgb | Channels::Grey | Channels::GreyOfLevels => [r, g, b],
+            Channels::Bgr => [b, g, r],
+            Channels::Grb => [g, r, b],
+            Channels::Rbg => [r, b, g],
+        }
     }
 
     /// Returns the linear light that this conversion stores as a level.
     pub fn decoded(&self, level: f64) -> f64 {
-        let c = level / 255.0;
-        match self.curve {
+        // The middle of the interval that is stored as this level.
+        let c = match self.storage.rounding {
+            Rounding::Nearest => level / 255.0,
+            Rounding::Down => (level + 0.5) / 255.0,
+            Rounding::Up => (level - 0.5) / 255.0,
+            Rounding::Of256 | Rounding::Of256Wrapped => (level + 0.5) / 256.0,
+        };
+        let c = match self.curve {
             Curve::Stated | Curve::Linear => c,
             Curve::Srgb => Encoding::Srgb.decode(c),
             Curve::SrgbTwice => Encoding::Srgb.decode(Encoding::Srgb.decode(c)),
             Curve::Decoded => Encoding::Srgb.encode(c),
             Curve::Power => libm::pow(c, 2.2),
             Curve::InversePower => libm::pow(c, 1.0 / 2.2),
+        };
+        match self.storage.range {
+            LevelRange::ToneMapped => c / (1.0 - c).max(1e-3),
+            _ => c,
         }
     }
 
@@ -78,7 +101,10 @@ impl Levels {
     fn is_plain_srgb(&self) -> bool {
         self.curve == Curve::Srgb
             && self.storage.rounding == Rounding::Nearest
-            && self.storage.channels != Channels::Grey
+            && !matches!(
+                self.storage.channels,
+                Channels::Grey | Channels::GreyOfLevels
+            )
             && !self.is_wrapped()
     }
 
@@ -108,8 +134,10 @@ impl Levels {
         let level = match self.storage.rounding {
             Rounding::Nearest => libm::floor(255.0 * stored + 0.5),
             Rounding::Down => libm::floor(255.0 * stored),
-            Rounding::Of256 if self.is_wrapped() => libm::floor(256.0 * stored),
-            Rounding::Of256 => libm::floor(256.0 * stored).min(255.0),
+            Rounding::Up => libm::ceil(255.0 * stored),
+            Rounding::Of256 if !self.is_wrapped() => libm::floor(256.0 * stored).min(255.0),
+            Rounding::Of256 => libm::floor(256.0 * stored),
+            Rounding::Of256Wrapped => libm::floor(256.0 * stored) % 256.0,
         };
         if self.is_wrapped() {
             level % 256.0

@@ -2,54 +2,81 @@
 //! names the one that comes closest to the picture.
 //!
 //! A mistake (`mistakes.rs`) sets choices of a recipe (`recipe.rs`). Few mistakes change which
-//! polygon is visible at a pixel (`geometry.rs`, `hits.rs`). All others only shade (`light.rs`,
-//! `surface.rs`) or store (`levels.rs`) the same hits in another way, at a few thousand pixels. So
-//! `drawer.rs` stores everything that recipes share. `residual.rs` measures, `search.rs` decides,
-//! and `amounts.rs` looks for light that is wrong by a factor.
+//! polygon is visible at a pixel (`geometry.rs`, `hits.rs`). All others only shade (`lit.rs`,
+//! `light.rs`, `surface.rs`), mix (`mixing.rs`) or store (`levels.rs`) the same hits in another
+//! way, at a few thousand pixels. So `drawer.rs` stores everything that recipes share.
+//! `residual.rs` measures and `search.rs` decides. `combinations.rs` looks for several mistakes, by
+//! outlines (`outline.rs`) and with free amounts of light (`amounts.rs`).
+//!
+//! First, the scene's picture is found in the file (`window.rs`, `rows.rs`, `subject.rs`). Pixels
+//! that it does not show, and cracks (`cracks.rs`), are not compared.
 //!
 //! The pixels are samples of the whole picture, because a smaller picture would have other edges.
 //! Levels are rounded like those of a file, so the right mistake leaves no difference at all.
 
 mod amounts;
+mod answer;
+mod combinations;
+mod cracks;
 mod drawer;
 mod geometry;
 mod hits;
+mod leaning;
 mod levels;
 mod light;
+mod lit;
 mod mistakes;
+mod mixing;
+mod numbers;
+mod outline;
+mod partly;
 mod recipe;
 mod residual;
+mod rows;
 mod search;
 mod shown_by;
 mod shown_by_table;
+mod stage;
 mod subject;
 mod surface;
 #[cfg(test)]
 mod tests;
+mod tone;
+mod window;
 
+pub use answer::{Asked, Line, answer};
 pub use mistakes::{MISTAKES, Mistake, Part};
+pub use numbers::{Amount, FittedLight, Fog, Numbers};
+pub use rows::{Order, Rows};
 pub use search::Verdict;
-pub(crate) use shown_by::scene_that_tells;
+use shown_by::scene_that_tells;
 pub use shown_by::scenes_that_show;
+pub use subject::Window;
+pub use window::find_window;
 
 use crate::split_mix::SplitMix;
 use alloc::vec::Vec;
-use amounts::{Amounts, Tone};
-use drawer::{Drawer, Drawn};
+use drawer::Drawer;
 use fastphong::frame::{Frame, FrameError, PreparedScene};
 use fastphong::picture::image_file::FilePicture;
 use fastphong::picture::{Encoding, Picture, Picture8};
 use fastphong::reference::Model;
 use fastphong::scene::Scene;
 use fastphong::shading::Variant;
-use recipe::{Rate, Recipe};
-use residual::{Residual, Target, Votes, apart, distance};
-use search::{Candidate, Findings, INVISIBLE, Search};
+use outline::Mask;
+use recipe::{CUTS, Cut, Rate, Recipe};
+use residual::{Drawn, Residual, Target, Votes, apart, distance, is_off};
+use search::{Candidate, Findings, INVISIBLE, Search, Whole};
+use stage::Stage;
 use subject::{Subject, background};
 use surface::Surface;
+use tone::Tone;
 
 /// About how many covered pixels are compared.
 const SAMPLES: usize = 3000;
+
+/// How many covered pixels are compared while several mistakes are looked for.
+const FEW_SAMPLES: usize = 800;
 
 /// The most pixels that are sampled to find them.
 const MOST_SAMPLES: usize = 20_000;
@@ -69,13 +96,16 @@ pub enum DiagnoseError {
 
 /// A picture to diagnose, and the scene that it should show.
 pub struct Question<'a> {
-    /// The scene. It has the size of the picture, or the size of the picture with columns and rows
-    /// exchanged.
+    /// The scene. Without `at` it has the size of the picture, or the size of the picture with
+    /// columns and rows exchanged.
     pub scene: &'a Scene,
     /// The method that should have drawn it, or `None` for the reference's Phong shading.
     pub method: Option<&'a Variant>,
     /// The picture.
     pub picture: &'a FilePicture,
+    /// The pixel of the picture that shows the scene's first pixel, as [`find_window`] returns it,
+    /// if the picture has another size.
+    pub at: Option<[isize; 2]>,
     /// The lengths of the lights' directions in the scene file, by which people forget to divide.
     /// Lights without an entry have the length 1.
     pub light_lengths: &'a [f64],
@@ -86,6 +116,12 @@ pub struct Diagnosis {
     /// True if columns and rows of the picture are exchanged. All other findings are about the
     /// picture with them put right.
     pub is_transposed: bool,
+    /// The part of the scene that a picture of another size shows. The pixels of `look_at` and
+    /// `worst` are pixels of the picture.
+    pub window: Option<Window>,
+    /// How the rows of the file are laid out, if they were read with a wrong length. All other
+    /// findings are about the picture with that put right.
+    pub rows: Option<Rows>,
     /// The background of the picture and the background of the scene, in levels, if they differ.
     pub background: Option<[[f32; 3]; 2]>,
     /// The encoding that the file states, if the scene states another one.
@@ -95,7 +131,8 @@ pub struct Diagnosis {
     /// The share of compared pixels that only the picture or only the scene covers: another
     /// outline.
     pub outline: f64,
-    /// The share of visible pixels that wrongly have the background's colour: cracks.
+    /// The share of covered pixels in cracks between polygons, which have the background's colour.
+    /// They are not compared.
     pub cracks: f64,
     /// What the picture shows, in one word.
     pub verdict: Verdict,
@@ -109,8 +146,8 @@ pub struct Diagnosis {
     pub singles: Vec<Cause>,
     /// How many pixels each explanation explains better, where two are close.
     pub votes: Option<Votes>,
-    /// Factors of the terms of the illumination model that fit the picture.
-    pub amounts: Option<Amounts>,
+    /// Numbers that explain the picture where no named mistakes do.
+    pub numbers: Option<Numbers>,
     /// A curve of levels that fits the picture.
     pub tone: Option<Tone>,
     /// The pixel that shows the mistakes best.
@@ -129,7 +166,38 @@ pub struct Cause {
     pub mistakes: Vec<Mistake>,
     /// The difference that they leave unexplained, in levels.
     pub residual: f64,
+    /// The corrections, one for each mistake. Empty except for the best explanation.
+    pub steps: Vec<Step>,
     recipe: Recipe,
+}
+
+impl Cause {
+    /// Returns `mistake` or `mistakes`.
+    pub fn word(&self) -> &'static str {
+        match self.mistakes.len() {
+            0 | 1 => "mistake",
+            _ => "mistakes",
+        }
+    }
+}
+
+/// The correction of a mistake, after those before it.
+#[derive(Clone)]
+pub struct Step {
+    /// How far the picture is from the right one then, in levels.
+    pub left: f64,
+    /// The part of the picture that it changes most: column, row, width and height in pixels.
+    pub part: Option<[usize; 4]>,
+    recipe: Recipe,
+}
+
+/// A picture that an answer shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// The right picture.
+    Reference,
+    /// The best explanation, of which the first few mistakes are corrected.
+    Corrected(usize),
 }
 
 /// A pixel in three pictures, in levels.
@@ -155,40 +223,58 @@ pub fn diagnose(
     progress: &mut dyn FnMut(f32),
 ) -> Result<Diagnosis, DiagnoseError> {
     let scene = question.scene;
-    let size = [scene.width as usize, scene.height as usize];
-    let is_transposed = question.picture.size() != size;
-    let subject = Subject::new(question.picture, scene, is_transposed);
+    let mut subject = Subject::new(question.picture, scene, question.at);
     let prepared = prepared(scene)?;
     let frame = prepared.frame().map_err(DiagnoseError::Frame)?;
     let surface = Surface::new(scene, &prepared, frame.origin());
+    let stage = Stage::new(scene, &prepared, &surface, question.light_lengths);
     let right = right(question.method);
-    let pixels = samples(scene, &prepared, &surface);
-    let mut drawer = Drawer::new(scene, &prepared, &surface, pixels, true);
-    let border = subject.border();
     let stated = background(scene).map(|c| c as f32);
-    let own = border.unwrap_or(stated);
-    drawer.background = own;
-    let target = target(&subject, &drawer.pixels, own);
-    drawer.target = target.levels.clone();
-    drawer.light_lengths = question.light_lengths.to_vec();
+    let own = subject.border().unwrap_or(stated);
+    subject.rows = leaning::find(&stage, &mut subject, own);
+    let cracks = hide_cracks(&stage, &mut subject, own);
+    let on = |pixels: Vec<[usize; 2]>| {
+        let mut drawer = Drawer::new(&stage, pixels, true);
+        let target = target(&subject, &drawer.pixels, own);
+        drawer.background = own;
+        drawer.target = target.levels.clone();
+        (drawer, target)
+    };
+    let (drawer, target) = on(samples(&stage, |pixel| subject.levels(pixel).is_some()));
     let mut search =
-        Search::new(scene, &mut drawer, &target, &right).ok_or(DiagnoseError::NothingToCompare)?;
-    if let Some(method) = question.method {
-        search.reference = nearer(search.reference, by_method(method, &frame, &mut search));
+        Search::new(&stage, drawer, &target, &right).ok_or(DiagnoseError::NothingToCompare)?;
+    let few = few(&mut search);
+    if let Some(method) = question.method
+        && let Some(drawn) = by_method(method, &frame, &mut search)
+    {
+        search.offer_right(drawn);
     }
-    if search.reference.levels <= MOST_OF_SAMPLES {
-        let smooth = supersampled(&prepared, &surface, question, &mut search);
-        search.reference = nearer(search.reference, smooth);
+    if search.reference.levels <= MOST_OF_SAMPLES
+        && let Some(drawn) = supersampled(&stage, question, &mut search)
+    {
+        search.offer_right(drawn);
     }
-    let (findings, search) = search.run(progress);
+    let outline = subject.outline(own);
+    let (drawer, few) = on(few);
+    let whole = Whole {
+        outline: &outline,
+        drawer,
+        target: few,
+    };
+    let findings = search.run(whole, progress);
     let is_other = own
         .iter()
         .zip(stated)
         .any(|(a, b)| (a - b).abs() >= OTHER_BACKGROUND);
     let mut diagnosis = described(findings, search);
-    diagnosis.is_transposed = is_transposed;
+    diagnosis.is_transposed = subject.is_transposed;
+    diagnosis.rows = subject.rows;
+    diagnosis.cracks = cracks;
+    if question.at.is_some() {
+        diagnosis.place_in(subject.window());
+    }
     diagnosis.background = is_other.then_some([own, stated]);
-    diagnosis.is_premultiplied = is_premultiplied(scene, &prepared, &surface, &subject);
+    diagnosis.is_premultiplied = is_premultiplied(&stage, &subject);
     let encoding = question.picture.encoding;
     diagnosis.stated_encoding = encoding.filter(|encoding| *encoding != scene.encoding);
     progress(1.0);
@@ -213,7 +299,7 @@ fn told_apart(scene: &Scene, mistakes: [&[Mistake]; 2]) -> Result<f64, DiagnoseE
     with_search(scene, |search| {
         let [a, b] = mistakes.map(|mistakes| {
             let made: Vec<&Mistake> = mistakes.iter().collect();
-            let recipe = Mistake::all(&made, search.base, search.scene)?;
+            let recipe = Mistake::all(&made, search.base, search.stage.scene)?;
             search.drawer.draw(&recipe)
         });
         a.zip(b).map_or(0.0, |(a, b)| apart(&a, &b))
@@ -228,8 +314,8 @@ fn with_search<T>(
     let prepared = prepared(scene)?;
     let frame = prepared.frame().map_err(DiagnoseError::Frame)?;
     let surface = Surface::new(scene, &prepared, frame.origin());
-    let pixels = samples(scene, &prepared, &surface);
-    let mut drawer = Drawer::new(scene, &prepared, &surface, pixels, true);
+    let stage = Stage::new(scene, &prepared, &surface, &[]);
+    let mut drawer = Drawer::new(&stage, samples(&stage, |_| true), true);
     drawer.background = background(scene).map(|c| c as f32);
     let right = drawer
         .draw(&Recipe::default())
@@ -241,7 +327,7 @@ fn with_search<T>(
         levels: right.levels,
         is_drawn,
     };
-    let mut search = Search::new(scene, &mut drawer, &target, &[Recipe::default()])
+    let mut search = Search::new(&stage, drawer, &target, &[Recipe::default()])
         .ok_or(DiagnoseError::NothingToCompare)?;
     Ok(with(&mut search))
 }
@@ -271,9 +357,9 @@ fn right(method: Option<&Variant>) -> Vec<Recipe> {
     rates.iter().map(with).collect()
 }
 
-/// Returns the distance of a picture from the method's own picture, which differs a little from its
-/// closed form. Returns `None` for large pictures.
-fn by_method(method: &Variant, frame: &Frame, search: &mut Search<'_, '_>) -> Option<Residual> {
+/// Returns the method's own picture, which differs a little from its closed form. Returns `None`
+/// for large pictures.
+fn by_method(method: &Variant, frame: &Frame, search: &mut Search<'_, '_>) -> Option<Drawn> {
     let plain = Recipe::default();
     let hits = search.drawer.hits(plain.geometry, plain.place)?;
     let light = drawer::drawn_by(frame, method)?;
@@ -285,36 +371,36 @@ fn by_method(method: &Variant, frame: &Frame, search: &mut Search<'_, '_>) -> Op
     let levels = search
         .drawer
         .levels(plain.storage, &hits, &colours.collect::<Vec<_>>());
-    search.target.residual(&Drawn { levels, hits })
+    Some(Drawn { levels, hits })
 }
 
 /// The largest distance in levels between right pictures with several samples per pixel and with
 /// one.
 const MOST_OF_SAMPLES: f64 = 2.0;
 
-/// Returns the distance of a picture from the right one with 2 × 2 samples per pixel, which is the
-/// mean of covered samples in linear light.
+/// Returns the right picture with 2 × 2 samples per pixel: the mean of covered samples in linear
+/// light.
 fn supersampled(
-    prepared: &PreparedScene,
-    surface: &Surface<'_>,
+    stage: &Stage<'_>,
     question: &Question<'_>,
     search: &mut Search<'_, '_>,
-) -> Option<Residual> {
+) -> Option<Drawn> {
     let base = search.base;
     let hits = search.drawer.hits(base.geometry, base.place)?;
     let [width, height] = [question.scene.width, question.scene.height].map(|side| 2 * side);
     if width.max(height) > Scene::MAX_SIDE {
         return None;
     }
-    let mut prepared = prepared.clone();
+    let mut prepared = stage.prepared.clone();
     prepared.set_size(width, height);
     let samples =
         search.drawer.pixels.iter().flat_map(|&[x, y]| {
             [[0, 0], [1, 0], [0, 1], [1, 1]].map(|[i, j]| [2 * x + i, 2 * y + j])
         });
-    let mut drawer = Drawer::new(question.scene, &prepared, surface, samples.collect(), false);
+    let stage = Stage::new(stage.scene, &prepared, stage.surface, stage.light_lengths);
+    let mut drawer = Drawer::new(&stage, samples.collect(), false);
     let seen = drawer.hits(base.geometry, base.place)?;
-    let light = drawer.light(base.geometry, base.place, base.shading)?;
+    let light = drawer.light(&base)?;
     let mean = |i: usize| {
         let covered = (4 * i..4 * i + 4).filter(|&k| seen.is_covered(k));
         let clamped = |k: usize| light[k].clamp(glam::DVec3::ZERO, glam::DVec3::ONE);
@@ -325,57 +411,78 @@ fn supersampled(
     };
     let colours: Vec<glam::DVec3> = (0..hits.len()).map(mean).collect();
     let levels = search.drawer.levels(base.storage, &hits, &colours);
-    search.target.residual(&Drawn { levels, hits })
-}
-
-/// Returns the smaller of two residuals.
-fn nearer(a: Residual, b: Option<Residual>) -> Residual {
-    b.filter(|b| b.levels < a.levels).unwrap_or(a)
+    Some(Drawn { levels, hits })
 }
 
 /// Chooses pixels on a grid, each at a random place in its cell, so that about [`SAMPLES`] are
-/// covered.
-fn samples(scene: &Scene, prepared: &PreparedScene, surface: &Surface<'_>) -> Vec<[usize; 2]> {
-    let size = [scene.width as usize, scene.height as usize];
-    let coarse = grid(size, SAMPLES);
-    let count = coarse.len();
-    let mut drawer = Drawer::new(scene, prepared, surface, coarse, false);
+/// covered. Only pixels for which `is_known` is true are chosen.
+fn samples(stage: &Stage<'_>, is_known: impl Fn([usize; 2]) -> bool) -> Vec<[usize; 2]> {
+    let size = [stage.scene.width as usize, stage.scene.height as usize];
+    let known = |count: usize| {
+        let mut pixels = grid(size, count);
+        pixels.retain(|pixel| is_known(*pixel));
+        pixels
+    };
+    let coarse = known(SAMPLES);
+    let count = grid(size, SAMPLES).len();
+    let mut drawer = Drawer::new(stage, coarse, false);
     let recipe = Recipe::default();
     let hits = drawer.hits(recipe.geometry, recipe.place);
     let covered = hits.map_or(0, |hits| {
         (0..hits.len()).filter(|&i| hits.is_covered(i)).count()
     });
     let share = (covered as f64 / count as f64).max(SAMPLES as f64 / MOST_SAMPLES as f64);
-    grid(size, (SAMPLES as f64 / share) as usize)
+    known((SAMPLES as f64 / share) as usize)
+}
+
+/// Chooses about [`FEW_SAMPLES`] of the pixels that are compared, among those that the scene covers
+/// or that the picture shows.
+fn few(search: &mut Search<'_, '_>) -> Vec<[usize; 2]> {
+    let base = search.base;
+    let hits = search.drawer.hits(base.geometry, base.place);
+    let is_seen = |i: &usize| {
+        search.target.is_drawn[*i] || hits.as_ref().is_some_and(|hits| hits.is_covered(*i))
+    };
+    let mut seen: Vec<usize> = (0..search.drawer.pixels.len()).filter(is_seen).collect();
+    SplitMix(2).shuffle(&mut seen);
+    seen.truncate(FEW_SAMPLES);
+    seen.sort_unstable();
+    seen.into_iter().map(|i| search.drawer.pixels[i]).collect()
 }
 
 /// Returns about `count` pixels of a picture, one at a random place of each cell of a grid.
 fn grid([width, height]: [usize; 2], count: usize) -> Vec<[usize; 2]> {
-    let side = (libm::sqrt((width * height) as f64 / count as f64) as usize).max(1);
+    let side = libm::sqrt((width * height) as f64 / count.max(1) as f64).max(1.0);
+    let cells = |length: usize| ((length as f64 / side) as usize).clamp(1, length);
+    let (columns, rows) = (cells(width), cells(height));
     let mut random = SplitMix(1);
-    let mut pixels = Vec::new();
-    for y in (0..height).step_by(side) {
-        for x in (0..width).step_by(side) {
-            let mut within = || (random.next() % side as u64) as usize;
-            let (x, y) = (x + within(), y + within());
-            pixels.push([x.min(width - 1), y.min(height - 1)]);
+    let mut within = |k: usize, cells: usize, length: usize| {
+        let [first, end] = [k, k + 1].map(|k| k * length / cells);
+        first + (random.next() % (end - first) as u64) as usize
+    };
+    let mut pixels = Vec::with_capacity(columns * rows);
+    for row in 0..rows {
+        for column in 0..columns {
+            let x = within(column, columns, width);
+            pixels.push([x, within(row, rows, height)]);
         }
     }
     pixels
 }
 
+/// Returns the levels of a picture at pixels that are all known.
 fn target(subject: &Subject<'_>, pixels: &[[usize; 2]], background: [f32; 3]) -> Target {
-    let levels: Vec<[f32; 3]> = pixels.iter().map(|pixel| subject.levels(*pixel)).collect();
-    let is_drawn = |levels: &[f32; 3]| {
-        let off = levels.iter().zip(background);
-        off.into_iter().any(|(a, b)| (a - b).abs() > 1.0)
-    };
-    let is_drawn = levels.iter().map(is_drawn).collect();
+    let levels = pixels.iter().map(|pixel| subject.levels(*pixel));
+    let levels: Vec<[f32; 3]> = levels.map(Option::unwrap_or_default).collect();
+    let is_drawn = levels
+        .iter()
+        .map(|levels| subject::is_drawn(*levels, background));
+    let is_drawn = is_drawn.collect();
     Target { levels, is_drawn }
 }
 
 /// Turns the findings of a search into a diagnosis: names the mistakes, and the pixels to look at.
-fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
+fn described(findings: Findings, mut search: Search<'_, '_>) -> Diagnosis {
     let reference = search.drawer.draw(&search.base);
     let named = findings.causes.first();
     let nearest_cause = named.or(findings.singles.first().filter(|best| {
@@ -388,15 +495,12 @@ fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
     let look_at = reference
         .as_ref()
         .and_then(|reference| spot(target, pixels, reference, explained.as_ref()));
-    let size = [search.scene.width as usize, search.scene.height as usize];
+    let scene = search.stage.scene;
+    let size = [scene.width as usize, scene.height as usize];
     let worst = nearest
         .as_ref()
         .or(reference.as_ref())
-        .and_then(|drawn| worst_part(target, pixels, drawn, size));
-    let cracks = worst.map_or(0.0, |_| {
-        let best = explained.as_ref().or(reference.as_ref());
-        best.map_or(0.0, |best| cracks(target, best, search.drawer.background))
-    });
+        .and_then(|drawn| worst_part(&target.levels, pixels, drawn, size));
     let cause = |candidate: &Candidate| Cause {
         mistakes: candidate
             .mistakes
@@ -404,32 +508,78 @@ fn described(findings: Findings, search: Search<'_, '_>) -> Diagnosis {
             .map(|&m| search.mistakes[m].clone())
             .collect(),
         residual: candidate.residual.levels,
+        steps: Vec::new(),
         recipe: candidate.recipe,
     };
+    let mut causes: Vec<Cause> = findings.causes.iter().map(cause).collect();
+    if let Some(cause) = causes.first_mut() {
+        put_in_order(cause, search.base, &mut search.drawer, scene);
+    }
     Diagnosis {
         is_transposed: false,
+        window: None,
+        rows: None,
         background: None,
         stated_encoding: None,
         is_premultiplied: false,
         outline: reference
             .as_ref()
             .map_or(0.0, |reference| outline(target, reference)),
-        cracks,
-        verdict: if is_empty(target, reference.as_ref()) {
-            Verdict::Empty
-        } else {
-            findings.verdict
-        },
+        cracks: 0.0,
+        verdict: findings.verdict,
         reference: search.reference,
         cut: search.base.geometry.cut.name(),
-        causes: findings.causes.iter().map(cause).collect(),
+        causes,
         singles: findings.singles.iter().map(cause).collect(),
         votes: findings.votes,
-        amounts: findings.amounts,
+        numbers: findings.numbers,
         tone: findings.tone,
         look_at,
         worst,
         invisible: invisible(&search.shown),
+    }
+}
+
+/// Orders the mistakes of an explanation so that correcting one after the other brings the picture
+/// as close to the right one as possible at each step.
+fn put_in_order(cause: &mut Cause, mut base: Recipe, drawer: &mut Drawer<'_>, scene: &Scene) {
+    base.geometry.cut = match cause.recipe.geometry.cut {
+        cut if CUTS.contains(&cut) => cut,
+        _ => Cut::Fan,
+    };
+    // With the cut of the explanation nothing is left in the end.
+    let Some(reference) = drawer.draw(&base) else {
+        return;
+    };
+    let size = [scene.width as usize, scene.height as usize];
+    let mut rest = core::mem::take(&mut cause.mistakes);
+    let mut before = drawer.draw(&cause.recipe);
+    while !rest.is_empty() {
+        let mut best: Option<(usize, f64, Recipe, Drawn)> = None;
+        for k in 0..rest.len() {
+            let others = rest.iter().enumerate().filter(|(other, _)| *other != k);
+            let others: Vec<&Mistake> = others.map(|(_, mistake)| mistake).collect();
+            let Some(recipe) = Mistake::all(&others, base, scene) else {
+                continue;
+            };
+            let Some(drawn) = drawer.draw(&recipe) else {
+                continue;
+            };
+            let left = apart(&reference, &drawn);
+            if best.as_ref().is_none_or(|(_, least, ..)| left < *least) {
+                best = Some((k, left, recipe, drawn));
+            }
+        }
+        let Some((k, left, recipe, drawn)) = best else {
+            cause.mistakes.append(&mut rest);
+            return;
+        };
+        let part = before
+            .as_ref()
+            .and_then(|before| worst_part(&before.levels, &drawer.pixels, &drawn, size));
+        cause.steps.push(Step { left, part, recipe });
+        cause.mistakes.push(rest.remove(k));
+        before = Some(drawn);
     }
 }
 
@@ -471,9 +621,9 @@ fn spot(
 /// How many parts a picture is divided into along each side, to say where it is worst.
 const PARTS: usize = 8;
 
-/// Returns the part of a picture that is farthest from a recipe: column, row, width and height.
+/// Returns the part in which levels are farthest from a recipe: column, row, width and height.
 fn worst_part(
-    target: &Target,
+    levels: &[[f32; 3]],
     pixels: &[[usize; 2]],
     drawn: &Drawn,
     size: [usize; 2],
@@ -482,7 +632,7 @@ fn worst_part(
     for (i, [x, y]) in pixels.iter().enumerate() {
         if !drawn.hits.edges[i] {
             let part = [y * PARTS / size[1], x * PARTS / size[0]];
-            sums[part[0]][part[1]] += distance(drawn.levels[i], target.levels[i]);
+            sums[part[0]][part[1]] += distance(drawn.levels[i], levels[i]);
         }
     }
     let parts = (0..PARTS * PARTS).map(|k| [k % PARTS, k / PARTS]);
@@ -498,15 +648,10 @@ const MOST_PARTLY_COVERED: usize = 2000;
 
 /// True if partly covered pixels are multiplied by alpha: nine in ten are closer to the scene's
 /// colour times alpha than to the colour itself.
-fn is_premultiplied(
-    scene: &Scene,
-    prepared: &PreparedScene,
-    surface: &Surface<'_>,
-    subject: &Subject<'_>,
-) -> bool {
+fn is_premultiplied(stage: &Stage<'_>, subject: &Subject<'_>) -> bool {
     let partly = subject.partly_covered(MOST_PARTLY_COVERED);
     let pixels = partly.iter().map(|(pixel, ..)| *pixel).collect();
-    let mut drawer = Drawer::new(scene, prepared, surface, pixels, false);
+    let mut drawer = Drawer::new(stage, pixels, false);
     let Some(drawn) = drawer.draw(&Recipe::default()) else {
         return false;
     };
@@ -522,17 +667,6 @@ fn is_premultiplied(
     voters >= 20 && 10 * multiplied >= 9 * voters
 }
 
-/// True if the picture shows less than a 50th of the pixels that a recipe covers.
-fn is_empty(target: &Target, drawn: Option<&Drawn>) -> bool {
-    let covered = |i: &usize| drawn.is_some_and(|drawn| drawn.hits.is_covered(*i));
-    let all = (0..target.levels.len()).filter(covered).count();
-    let there = (0..target.levels.len())
-        .filter(covered)
-        .filter(|&i| target.is_drawn[i])
-        .count();
-    50 * there < all
-}
-
 /// Returns the share of pixels that only the picture or only a recipe covers, of all that either
 /// covers.
 fn outline(target: &Target, drawn: &Drawn) -> f64 {
@@ -545,17 +679,45 @@ fn outline(target: &Target, drawn: &Drawn) -> f64 {
     one as f64 / all.max(1) as f64
 }
 
-/// Returns the share of pixels inside a recipe's outline that wrongly have the background's colour.
-fn cracks(target: &Target, drawn: &Drawn, background: [f32; 3]) -> f64 {
-    let (mut inside, mut holes) = (0usize, 0usize);
-    for i in 0..target.levels.len() {
-        let is_other = distance(drawn.levels[i], background) > 8.0;
-        if drawn.hits.is_covered(i) && !drawn.hits.edges[i] && is_other {
-            inside += 1;
-            holes += usize::from(distance(target.levels[i], background) <= 0.5);
-        }
+/// How many of the pixels in cracks are drawn to see if the scene is dark there.
+const MOST_IN_CRACKS: usize = 800;
+
+/// Hides the pixels in cracks between polygons, and returns their share of the covered pixels. It
+/// is 0 if there are only few, or if the scene has the background's colour there.
+fn hide_cracks(stage: &Stage<'_>, subject: &mut Subject<'_>, background: [f32; 3]) -> f64 {
+    let plain = Recipe::default();
+    let Some(covered) = Mask::of_geometry(stage, plain.geometry) else {
+        return 0.0;
+    };
+    let Some((mask, share)) = cracks::find(subject, background, &covered) else {
+        return 0.0;
+    };
+    // Polygons that a known mistake leaves out are no cracks.
+    let is_left_out = |mistake: &Mistake| {
+        let mut recipe = plain;
+        mistake.set(&mut recipe);
+        let geometry = recipe.of_scene(stage.scene).geometry;
+        let own = Mask::of_geometry(stage, geometry).filter(|_| geometry != plain.geometry);
+        own.is_some_and(|own| cracks::are_holes(&mask, &covered, &own))
+    };
+    if MISTAKES.iter().any(is_left_out) {
+        return 0.0;
     }
-    holes as f64 / inside.max(1) as f64
+    let mut pixels = grid(subject.size(), MOST_SAMPLES);
+    pixels.retain(|pixel| mask.contains(*pixel));
+    SplitMix(4).shuffle(&mut pixels);
+    pixels.truncate(MOST_IN_CRACKS);
+    let count = pixels.len();
+    let mut drawer = Drawer::new(stage, pixels, false);
+    drawer.background = background;
+    let drawn = drawer.draw(&plain);
+    let is_far = |levels: &&[f32; 3]| is_off(**levels, background);
+    let far = drawn.map_or(0, |drawn| drawn.levels.iter().filter(is_far).count());
+    if 10 * far <= 9 * count {
+        return 0.0;
+    }
+    subject.hidden = Some(mask);
+    share
 }
 
 impl Diagnosis {
@@ -563,33 +725,60 @@ impl Diagnosis {
     pub fn is_correct(&self) -> bool {
         let is_file_right =
             self.background.is_none() && !self.is_transposed && !self.is_premultiplied;
-        self.verdict == Verdict::Correct && is_file_right
+        let is_whole = self.rows.is_none() && self.cracks == 0.0;
+        self.verdict == Verdict::Correct && is_file_right && is_whole
+    }
+
+    /// Moves all pixels from the scene to the file that shows a part of it.
+    fn place_in(&mut self, window: Window) {
+        let Window {
+            in_scene, in_file, ..
+        } = window;
+        let moved = |k: usize, pixel: usize| (pixel + in_file[k]).saturating_sub(in_scene[k]);
+        if let Some(spot) = &mut self.look_at {
+            spot.pixel = [moved(0, spot.pixel[0]), moved(1, spot.pixel[1])];
+        }
+        if let Some([x, y, width, height]) = self.worst {
+            // Of a part that was cut off, the rest is in the file.
+            let rest = |k: usize, first: usize, side: usize| {
+                let start = first.max(in_scene[k]);
+                let end = (first + side).min(in_scene[k] + window.size[k]);
+                (moved(k, start), end.saturating_sub(start))
+            };
+            let ((x, width), (y, height)) = (rest(0, x, width), rest(1, y, height));
+            self.worst = Some([x, y, width, height]);
+        }
+        self.window = Some(window);
     }
 
     /// Returns every `step`-th column and row of the picture that is diagnosed. If its columns and
-    /// rows were exchanged, they are put right.
+    /// rows were exchanged, they are put right. Unknown pixels are transparent.
     pub fn yours(&self, question: &Question<'_>, step: usize) -> Picture8 {
-        let subject = Subject::new(question.picture, question.scene, self.is_transposed);
+        let mut subject = Subject::new(question.picture, question.scene, question.at);
+        subject.rows = self.rows;
         let [width, height] = subject.size();
         let [columns, rows] = [width, height].map(|side| side.div_ceil(step));
         let mut picture = Picture::new(columns, rows, [255; 4]);
         for y in 0..rows {
             for (x, pixel) in picture.row_mut(y).iter_mut().enumerate() {
-                let [r, g, b] = subject.levels([x * step, y * step]).map(|c| c as u8);
-                *pixel = [r, g, b, 255];
+                let levels = subject.levels([x * step, y * step]);
+                *pixel = levels.map_or([0; 4], |levels| {
+                    let [r, g, b] = levels.map(|c| c as u8);
+                    [r, g, b, 255]
+                });
             }
         }
         picture
     }
 
-    /// Draws every `step`-th column and row of the scene, with the named mistakes or without them.
+    /// Draws every `step`-th column and row of a picture of the scene.
     ///
     /// # Errors
     /// [`DiagnoseError`] if the scene cannot be drawn.
     pub fn draw(
         &self,
         question: &Question<'_>,
-        with_mistakes: bool,
+        shown: Shown,
         step: usize,
     ) -> Result<Picture8, DiagnoseError> {
         let scene = question.scene;
@@ -599,14 +788,19 @@ impl Diagnosis {
         let [width, height] = [scene.width, scene.height].map(|side| side as usize);
         let rows = (0..height).step_by(step);
         let pixels = rows.flat_map(|y| (0..width).step_by(step).map(move |x| [x, y]));
-        let mut drawer = Drawer::new(scene, &prepared, &surface, pixels.collect(), false);
-        drawer.light_lengths = question.light_lengths.to_vec();
+        let stage = Stage::new(scene, &prepared, &surface, question.light_lengths);
+        let mut drawer = Drawer::new(&stage, pixels.collect(), false);
         drawer.background = match self.background {
-            Some([own, _]) if with_mistakes => own,
+            Some([own, _]) if shown != Shown::Reference => own,
             _ => background(scene).map(|c| c as f32),
         };
-        let cause = self.causes.first().filter(|_| with_mistakes);
-        let recipe = cause.map_or_else(|| right(question.method)[0], |cause| cause.recipe);
+        let recipe = match (shown, self.causes.first()) {
+            (Shown::Corrected(0), Some(cause)) => cause.recipe,
+            (Shown::Corrected(count), Some(cause)) if count <= cause.steps.len() => {
+                cause.steps[count - 1].recipe
+            }
+            _ => right(question.method)[0],
+        };
         let drawn = drawer
             .draw(&recipe)
             .ok_or(DiagnoseError::NothingToCompare)?;

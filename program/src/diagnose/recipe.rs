@@ -1,10 +1,11 @@
 //! A recipe: all choices in drawing a scene, right or with mistakes. The default recipe draws what
 //! the scene states. A mistake sets some of the choices (`mistakes.rs`).
 //!
-//! The choices have four parts, in the order in which a picture is made: [`Geometry`] (the visible
+//! The choices have five parts, in the order in which a picture is made: [`Geometry`] (the visible
 //! polygon at a pixel, and the point in it), [`Place`] (the pixel of that picture that the file
-//! shows), [`Shading`] (its light) and [`Storage`] (the levels in the file). The result of each
-//! part is stored for all recipes that agree in it.
+//! shows), [`Shading`] (the directions there, and their cosines), [`Mixing`] (the colours that
+//! cosines are multiplied by) and [`Storage`] (the levels in the file). The first three take time,
+//! so their results are stored for all recipes that agree in them.
 
 use fastphong::picture::Encoding;
 use fastphong::scene::{Culling, HiddenSurfaces, Projection, Scene, SpecularGate};
@@ -15,10 +16,17 @@ pub struct Recipe {
     pub geometry: Geometry,
     pub place: Place,
     pub shading: Shading,
+    pub mixing: Mixing,
     pub storage: Storage,
 }
 
 impl Recipe {
+    /// True if its light depends on the triangles that polygons are cut into.
+    pub fn depends_on_cut(&self) -> bool {
+        let is_at_pixels = matches!(self.shading.rate, Rate::Pixel | Rate::Method(_));
+        !is_at_pixels || self.geometry.interpolation != Interpolated::Stated
+    }
+
     /// Resets choices that `scene` states anyway, so that two recipes of the same picture are
     /// equal.
     pub fn of_scene(mut self, scene: &Scene) -> Recipe {
@@ -26,12 +34,12 @@ impl Recipe {
         // Columns of a square picture, read as rows, exchange x and y: that is `Transposed`. Other
         // pictures cannot be transposed and keep their size.
         let is_other = if is_square {
-            Place::Columns
+            Turn::Columns
         } else {
-            Place::Transposed
+            Turn::Transposed
         };
-        if self.place == is_other {
-            self.place = Place::Stated;
+        if self.place.turn == is_other {
+            self.place.turn = Turn::Stated;
         }
         let geometry = &mut self.geometry;
         geometry.culling = geometry.culling.filter(|culling| *culling != scene.culling);
@@ -48,6 +56,7 @@ impl Recipe {
         let is_orthographic = matches!(scene.camera.projection, Projection::Orthographic { .. });
         if is_orthographic {
             geometry.interpolation = Interpolated::Stated;
+            geometry.eye = Eye::Stated;
             geometry.near = Near::Cut;
             if matches!(geometry.lens, Lens::Degrees | Lens::WholeDegrees) {
                 geometry.lens = Lens::Stated;
@@ -87,6 +96,7 @@ pub struct Geometry {
     pub depth: Depth,
     pub interpolation: Interpolated,
     pub weights: Corners,
+    pub eye: Eye,
     pub lens: Lens,
     pub aspect: Aspect,
     pub near: Near,
@@ -103,8 +113,16 @@ pub enum Snapping {
     Fine,
     /// Rounded to whole pixels.
     WholePixels,
+    /// Rounded to whole pixels, where pixels are sampled at their corners.
+    WholePixelsAtCorners,
+    /// Cut down to whole pixels.
+    CutDown,
+    /// Cut down to whole pixels, where pixels are sampled at their corners.
+    CutDownAtCorners,
     /// From 0 to width − 1 and height − 1.
     LessOne,
+    /// From 0 to width − 1 and height − 1, where pixels are sampled at their corners.
+    LessOneAtCorners,
 }
 
 /// The visible side of objects that a transform mirrors.
@@ -137,6 +155,9 @@ pub enum Cut {
     /// Corners 0 1 2, 1 2 3 and so on.
     Strip,
 }
+
+/// The harmless ways to interpolate over polygons of more than three sides.
+pub const CUTS: [Cut; 4] = [Cut::Whole, Cut::Fan, Cut::OtherFan, Cut::Shorter];
 
 impl Cut {
     /// Returns its name in data.
@@ -194,6 +215,18 @@ pub enum Depth {
     TiesToLast,
 }
 
+/// The centre of projection.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Eye {
+    /// The eye.
+    #[default]
+    Stated,
+    /// A point as far behind the eye as the target is in front of it.
+    Behind,
+    /// A point behind the eye at the distance 1/tan(fovy/2).
+    BehindByFocalLength,
+}
+
 /// The field of view.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Lens {
@@ -240,40 +273,49 @@ pub enum Near {
 
 /// The pixel of the scene's picture that a pixel of the file shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Place {
+pub struct Place {
+    pub turn: Turn,
+    /// How far the turned picture is moved to the right and downward, in pixels.
+    pub moved: [i8; 2],
+}
+
+/// The order in which the file has the pixels of a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Turn {
     #[default]
     Stated,
     MirroredX,
     MirroredY,
-    Turned,
-    /// Moved to the right and downward, in pixels.
-    Moved([i8; 2]),
+    Half,
     /// The picture is stored by columns and read by rows.
     Columns,
     /// x and y are exchanged in a square picture.
     Transposed,
 }
 
-/// The choices that decide the light at a point of a polygon.
+/// The choices that decide the vectors N, L and V at a point of a polygon, and their cosines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Shading {
     pub rate: Rate,
     pub normals: Normals,
     pub normal_sign: Sign,
+    pub normal_axes: Axes,
+    pub normal_w: NormalW,
     pub normal_length: Length,
     pub normal_space: Space,
     /// The length of the normal in highlights only.
     pub highlight_normal: Length,
     pub facing: Facing,
+    /// The space of positions where L and V are computed from them.
+    pub position_space: Space,
     pub light_sign: Sign,
     pub light_axes: Axes,
-    pub light_space: Space,
+    pub light_space: LightSpace,
     pub light_place: LightPlace,
     pub light_length: Length,
     pub falloff: FalloffUse,
-    pub lights: LightUse,
-    pub light_colour: LightColour,
     pub viewer: Viewer,
+    pub view_rate: ViewRate,
     pub view_sign: Sign,
     pub view_length: Length,
     pub cosine: Cosine,
@@ -284,11 +326,19 @@ pub struct Shading {
     pub exponent: Exponent,
     /// The gate of highlights, or `None` for the scene's.
     pub gate: Option<SpecularGate>,
+    pub fresnel: Fresnel,
+    pub materials: MaterialUse,
+}
+
+/// The choices that decide what the cosines are multiplied by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Mixing {
+    pub lights: LightUse,
+    pub light_colour: LightColour,
     pub ambient: AmbientUse,
     pub diffuse: DiffuseUse,
     pub specular: SpecularUse,
     pub sum: Sum,
-    pub materials: MaterialUse,
 }
 
 /// The material of a polygon.
@@ -363,6 +413,14 @@ pub enum Normals {
     OfFirstEdges,
     /// Averages over the triangles that polygons are cut into.
     OfTriangles,
+    /// The normal of the vertex before, in the order of the file.
+    OfVertexBefore,
+    /// The normal of the next vertex.
+    OfVertexAfter,
+    /// The position, from the middle of the object.
+    Positions,
+    /// (N + 1)/2, as textures store normals.
+    Halved,
 }
 
 /// The direction of a vector.
@@ -394,7 +452,7 @@ pub enum Facing {
     OneSided,
 }
 
-/// The axes of light directions and positions.
+/// The axes of a vector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Axes {
     #[default]
@@ -404,15 +462,45 @@ pub enum Axes {
     NegatedZ,
     /// y and z exchanged.
     ZUp,
+    /// x and y exchanged.
+    ExchangedXy,
+    /// x and z exchanged.
+    ExchangedXz,
 }
 
-/// The space in which lights are stated.
+/// The space of a vector.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Space {
     #[default]
     World,
     /// The camera's space: x to the right, y up, z toward the viewer.
     Camera,
+}
+
+/// The space of lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum LightSpace {
+    #[default]
+    World,
+    /// Lights are stated in the camera's space.
+    Camera,
+    /// Lights are moved into the camera's space.
+    Moved,
+    /// Positions are turned like the camera, around the world's origin.
+    Turned,
+    /// Lights are stated in the camera's space, and moved back by the camera's rotation twice.
+    Inverse,
+}
+
+/// A fourth component of normals, which stays when they are transformed by a matrix of four rows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum NormalW {
+    #[default]
+    Missing,
+    /// N times the target, as a view matrix around the target leaves it.
+    OfTarget,
+    /// N times the eye.
+    OfEye,
 }
 
 /// The meaning of a light's three coordinates.
@@ -424,6 +512,10 @@ pub enum LightPlace {
     PositionsAreDirections,
     /// Directions are used as positions.
     DirectionsArePositions,
+    /// Directions are moved by minus the eye, as a view matrix moves points.
+    DirectionsMinusEye,
+    /// Directions are moved by minus the target, as a view matrix around the target moves points.
+    DirectionsMinusTarget,
 }
 
 /// The falloff of lights at positions.
@@ -471,6 +563,15 @@ pub enum LightColour {
     WhiteHighlights,
 }
 
+/// The points at which V is computed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ViewRate {
+    #[default]
+    Pixel,
+    /// Unit vectors at vertices, interpolated and normalised again.
+    Vertex,
+}
+
 /// The place of the viewer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Viewer {
@@ -484,6 +585,10 @@ pub enum Viewer {
     AlongZ,
     /// V = −P, as if the eye were at the origin.
     AtOrigin,
+    /// V = eye / |eye| − P / |P|.
+    OfUnits,
+    /// V = eye − P with P in the camera's space, the eye in the world's.
+    OfTwoSpaces,
 }
 
 /// The use of L·N.
@@ -498,6 +603,16 @@ pub enum Cosine {
     Signed,
     /// (L·N + 1)/2.
     Half,
+    /// max(0, (L·N + ½)/1.5).
+    Wrapped,
+    /// max(0, L·N)².
+    Squared,
+    /// 1 − angle / 90°.
+    Angle,
+    /// Four steps of max(0, L·N), cut off.
+    StepsDown,
+    /// Four steps of max(0, L·N), rounded up.
+    StepsUp,
 }
 
 /// The reflected ray.
@@ -514,6 +629,10 @@ pub enum Reflected {
     Plus,
     /// 2 (N·V) N − L.
     OfView,
+    /// 2 (L·N) (N − L), normalised.
+    TimesCosine,
+    /// 2 (L·N) N − L, normalised.
+    Normalised,
 }
 
 /// The cosine of highlights.
@@ -543,6 +662,10 @@ pub enum Halfway {
     Mean,
     /// L − V, of length 1.
     Difference,
+    /// L + V normalised, but L and V as long as their distances.
+    OfDistances,
+    /// L + V for the direction from the origin to the eye, everywhere.
+    Constant,
 }
 
 /// The treatment of a negative cosine of a highlight.
@@ -553,6 +676,15 @@ pub enum Cap {
     Clamped,
     /// It is raised to the exponent, which makes it positive if the exponent is even.
     Unclamped,
+}
+
+/// A factor of highlights at grazing angles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Fresnel {
+    #[default]
+    Missing,
+    /// 1 − N·V.
+    OneMinusCosine,
 }
 
 /// The exponent of highlights.
@@ -598,6 +730,10 @@ pub enum DiffuseUse {
     #[default]
     Stated,
     Missing,
+    /// k_d / π.
+    OverPi,
+    /// k_d (1 − k_s).
+    TimesRest,
 }
 
 /// The specular term.
@@ -614,9 +750,15 @@ pub enum SpecularUse {
     WithoutMaterial,
     /// I_p (k_s R·V)ⁿ.
     InsidePower,
+    /// I_p k_s times k_d divided by its largest channel.
+    Tinted,
+    /// I_p k_s (n + 2)/2π.
+    Normalised,
+    /// I_p k_s (n + 8)/8π.
+    NormalisedForHalfway,
 }
 
-/// The treatment of sums over 1.
+/// The sum of the terms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Sum {
     /// Clamped at the end.
@@ -624,6 +766,12 @@ pub enum Sum {
     Clamped,
     /// Each light is clamped before it is added.
     ClampedPerLight,
+    /// Highlights cover diffuse light: mix(diffuse, 1, specular).
+    Mixed,
+    /// The larger of ambient light and the rest.
+    AmbientAsFloor,
+    /// The larger of diffuse and specular light, for each light.
+    LargerTerm,
 }
 
 /// The choices that decide the levels in the file.
@@ -658,8 +806,14 @@ pub enum Channels {
     #[default]
     Rgb,
     Bgr,
+    /// Red and green exchanged.
+    Grb,
+    /// Green and blue exchanged.
+    Rbg,
     /// The mean of all three in each channel.
     Grey,
+    /// The mean of all three levels in each channel, cut off.
+    GreyOfLevels,
 }
 
 /// The rounding from 0..=1 to whole levels.
@@ -669,8 +823,12 @@ pub enum Rounding {
     Nearest,
     /// ⌊255 c⌋.
     Down,
+    /// ⌈255 c⌉.
+    Up,
     /// ⌊256 c⌋, at most 255.
     Of256,
+    /// ⌊256 c⌋, where 256 becomes 0.
+    Of256Wrapped,
 }
 
 /// The treatment of colours over 1.

@@ -1,7 +1,9 @@
 //! How far a recipe is from a picture, in grey levels.
 
-use super::drawer::Drawn;
+use super::hits::Hits;
+use alloc::rc::Rc;
 use alloc::vec::Vec;
+use std::collections::{HashMap, HashSet};
 
 /// The most that a difference counts, in levels: where another polygon is visible, a pixel is
 /// wrong, not very wrong.
@@ -15,6 +17,36 @@ const DIFFERENT: f32 = 2.0;
 
 /// The fewest pixels for a vote.
 const FEWEST_VOTES: usize = 20;
+
+/// The fewest wrong pixels that make a part of a picture wrong.
+const FEWEST_WRONG: usize = 6;
+
+/// A picture of fewer colours than this is like those of many sets of mistakes.
+const FEW_COLOURS: usize = 30;
+
+/// The largest share of pixels that may be wrong here and there, beside edges that another
+/// rasterizer has elsewhere.
+const MOST_WRONG: f64 = 0.03;
+
+/// Returns the side of square parts of a picture that have at least about eight compared pixels
+/// each, and that are not too small to be seen: a 32nd of the width.
+fn part_side(pixels: &[[usize; 2]]) -> usize {
+    let first = pixels.first().copied().unwrap_or_default();
+    let (low, high) = pixels.iter().fold((first, first), |(low, high), p| {
+        let low = [low[0].min(p[0]), low[1].min(p[1])];
+        (low, [high[0].max(p[0]), high[1].max(p[1])])
+    });
+    let area = (high[0] - low[0] + 1) * (high[1] - low[1] + 1);
+    let each = 8.0 * area as f64 / pixels.len().max(1) as f64;
+    (libm::sqrt(each) as usize).max((high[0] - low[0]) / 32 + 1)
+}
+
+/// A recipe at the sampled pixels.
+pub struct Drawn {
+    /// The levels, 0..=255.
+    pub levels: Vec<[f32; 3]>,
+    pub hits: Rc<Hits>,
+}
 
 /// The sampled pixels of the picture that is diagnosed.
 pub struct Target {
@@ -32,6 +64,8 @@ pub struct Residual {
     /// The mean of the differences beyond one level, which ignores noise of a level and other
     /// rounding.
     pub beyond: f64,
+    /// The share of pixels with a channel that is off by more than two levels.
+    pub off: f64,
     /// How many pixels were compared.
     pub compared: usize,
     /// How many pixels beside edges were left out.
@@ -44,10 +78,15 @@ pub fn distance(a: [f32; 3], b: [f32; 3]) -> f32 {
     (sum / 3.0).min(MOST as f32)
 }
 
+/// True if a channel of two colours differs by more than two levels, which a person may see.
+pub fn is_off(a: [f32; 3], b: [f32; 3]) -> bool {
+    a.iter().zip(b).any(|(a, b)| (a - b).abs() > 2.0)
+}
+
 impl Target {
     /// Returns the distance of a recipe, or `None` if too few pixels can be compared.
     pub fn residual(&self, drawn: &Drawn) -> Option<Residual> {
-        let (mut sum, mut beyond, mut compared, mut left_out) = (0.0, 0.0, 0, 0);
+        let (mut sum, mut beyond, mut off, mut compared, mut left_out) = (0.0, 0.0, 0, 0, 0);
         for i in 0..self.levels.len() {
             if !(drawn.hits.is_covered(i) || self.is_drawn[i]) {
                 continue;
@@ -65,13 +104,70 @@ impl Target {
                 .map(|(a, b)| ((a - b).abs() - 1.0).max(0.0))
                 .sum();
             beyond += f64::from((over / 3.0).min(MOST as f32));
+            off += usize::from(is_off(own, other));
         }
         (compared >= FEWEST).then(|| Residual {
             levels: sum / compared as f64,
             beyond: beyond / compared as f64,
+            off: off as f64 / compared as f64,
             compared,
             left_out,
         })
+    }
+
+    /// True if the picture shows less than a 50th of the pixels that a recipe covers.
+    pub fn is_empty(&self, drawn: &Drawn) -> bool {
+        let covered = (0..self.levels.len()).filter(|i| drawn.hits.is_covered(*i));
+        let (mut all, mut there) = (0usize, 0usize);
+        for i in covered {
+            all += 1;
+            there += usize::from(self.is_drawn[i]);
+        }
+        50 * there < all
+    }
+
+    /// True if the picture has few colours, so that several mistakes must explain it exactly.
+    pub fn has_few_colours(&self) -> bool {
+        let drawn = self.levels.iter().zip(&self.is_drawn);
+        let drawn = drawn.filter(|(_, is_drawn)| **is_drawn);
+        let colours: HashSet<[u32; 3]> =
+            drawn.map(|(levels, _)| levels.map(f32::to_bits)).collect();
+        colours.len() < FEW_COLOURS
+    }
+
+    /// Returns the mean distance of a recipe, of which no pixel counts more than `most` levels, or
+    /// `None` if too few pixels can be compared.
+    pub fn bounded(&self, drawn: &Drawn, most: f32) -> Option<f64> {
+        let (mut sum, mut compared) = (0.0, 0usize);
+        for i in 0..self.levels.len() {
+            let is_seen = drawn.hits.is_covered(i) || self.is_drawn[i];
+            if is_seen && !drawn.hits.edges[i] {
+                sum += f64::from(distance(drawn.levels[i], self.levels[i]).min(most));
+                compared += 1;
+            }
+        }
+        (compared >= FEWEST).then(|| sum / compared as f64)
+    }
+
+    /// True if a recipe differs from the picture in a part that a person would see: in at least
+    /// half of a part's pixels, or in too many pixels of the whole.
+    pub fn shows(&self, drawn: &Drawn, pixels: &[[usize; 2]]) -> bool {
+        let mut parts: HashMap<[usize; 2], [usize; 2]> = HashMap::new();
+        let (mut all, mut wrong) = (0usize, 0usize);
+        let side = part_side(pixels);
+        for (i, [x, y]) in pixels.iter().enumerate() {
+            let is_seen = drawn.hits.is_covered(i) || self.is_drawn[i];
+            if !is_seen || drawn.hits.edges[i] {
+                continue;
+            }
+            let off = usize::from(is_off(drawn.levels[i], self.levels[i]));
+            let part = parts.entry([x / side, y / side]).or_default();
+            *part = [part[0] + 1, part[1] + off];
+            all += 1;
+            wrong += off;
+        }
+        let is_visible = |[all, wrong]: &[usize; 2]| *wrong >= FEWEST_WRONG && 2 * wrong >= *all;
+        wrong as f64 > MOST_WRONG * all as f64 || parts.values().any(is_visible)
     }
 
     /// Lets the pixels where two recipes differ vote for the recipe that they are closer to.

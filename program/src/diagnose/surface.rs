@@ -144,6 +144,12 @@ impl<'a> Surface<'a> {
                     .map(unit)
                     .sum()
             }),
+            Normals::OfVertexBefore => {
+                self.of_neighbour(|index, count| (index + count - 1) % count)
+            }
+            Normals::OfVertexAfter => self.of_neighbour(|index, count| (index + 1) % count),
+            Normals::Positions => self.of_positions(),
+            Normals::Halved => self.stated.iter().map(|n| 0.5 * *n + 0.5).collect(),
             Normals::InsideOut => self.by_object(|matrix, _, model| {
                 let sign = matrix.determinant().signum();
                 sign * (matrix.inverse().transpose() * model)
@@ -234,6 +240,41 @@ impl<'a> Surface<'a> {
             let n = cofactors(object.transform.matrix3) * given.values[index as usize].as_dvec3();
             all[vertex] = n.normalize_or(all[vertex]);
         });
+        all
+    }
+
+    /// Returns the normals of other vertices of the same object. `other` is called with a vertex's
+    /// index in its mesh, and how many positions the mesh has.
+    fn of_neighbour(&self, other: impl Fn(usize, usize) -> usize) -> Vec<DVec3> {
+        let models = &self.prepared.geometry().models;
+        let indices = self.indices();
+        let mut by_index: Vec<Vec<DVec3>> = (self.objects.iter())
+            .map(|object| vec![DVec3::ZERO; object.mesh.positions().len()])
+            .collect();
+        for (v, normal) in self.stated.iter().enumerate() {
+            by_index[models.object_of(v)][indices[v] as usize] = *normal;
+        }
+        let of = |v: usize| {
+            let own = &by_index[models.object_of(v)];
+            own[other(indices[v] as usize, own.len())]
+        };
+        (0..self.len()).map(of).collect()
+    }
+
+    /// Returns the direction of each vertex from the middle of its object's vertices.
+    fn of_positions(&self) -> Vec<DVec3> {
+        let models = &self.prepared.geometry().models;
+        let mut all = Vec::with_capacity(self.len());
+        let mut first = 0;
+        for object in &models.objects {
+            let own = first..object.end;
+            let count = own.len().max(1) as f64;
+            let middle = own.clone().map(|v| models.position(v)).sum::<DVec3>() / count;
+            let matrix = cofactors(object.transform.matrix3);
+            let normal = |v| (matrix * (models.position(v) - middle)).normalize_or_zero();
+            all.extend(own.map(normal));
+            first = object.end;
+        }
         all
     }
 

@@ -2,6 +2,7 @@
 
 use super::drawer::Drawer;
 use super::recipe::{Rate, Recipe};
+use super::stage::Stage;
 use super::surface::Surface;
 use super::*;
 use fastphong::reference;
@@ -9,10 +10,28 @@ use fastphong::scene::input::{SCENES, load, resolve};
 use std::vec::Vec;
 
 /// Returns a shipped scene at a small size, with one sample per pixel.
-fn scene(name: &str, [width, height]: [u32; 2]) -> Scene {
+pub fn scene(name: &str, [width, height]: [u32; 2]) -> Scene {
     let mut scene = resolve(&load(name).unwrap()).unwrap().scene;
     (scene.width, scene.height, scene.samples) = (width, height, 1);
     scene
+}
+
+/// Draws a scene.
+pub fn drawn(scene: &Scene) -> Picture8 {
+    let picture = FilePicture::stored(Picture8::new(
+        scene.width as usize,
+        scene.height as usize,
+        [0, 0, 0, 255],
+    ));
+    let question = Question {
+        scene,
+        method: None,
+        picture: &picture,
+        at: None,
+        light_lengths: &[],
+    };
+    let found = diagnose(&question, &mut |_| {}).unwrap();
+    found.draw(&question, Shown::Reference, 1).unwrap()
 }
 
 /// Returns the names of the shipped scenes, except the one that takes seconds to prepare.
@@ -46,14 +65,13 @@ fn recipes_without_mistakes_are_the_reference() {
         let prepared = prepared(&scene).unwrap();
         let frame = prepared.frame().unwrap();
         let surface = Surface::new(&scene, &prepared, frame.origin());
-        let mut drawer = Drawer::new(&scene, &prepared, &surface, all_pixels(&scene), false);
+        let stage = Stage::new(&scene, &prepared, &surface, &[]);
+        let mut drawer = Drawer::new(&stage, all_pixels(&scene), false);
         for (rate, model) in rates {
             let picture = reference::render(&frame, model).picture;
             let mut recipe = Recipe::default();
             recipe.shading.rate = rate;
-            let light = drawer
-                .light(recipe.geometry, recipe.place, recipe.shading)
-                .unwrap();
+            let light = drawer.light(&recipe).unwrap();
             let hits = drawer.hits(recipe.geometry, recipe.place).unwrap();
             for (i, pixel) in picture.pixels().iter().enumerate() {
                 assert_eq!(hits.is_covered(i), pixel[3] == 1.0, "{name}: pixel {i}");

@@ -1,7 +1,7 @@
 //! The answer as data.
 
 use super::DiagnoseArgs;
-use crate::diagnose::{Cause, Diagnosis, scenes_that_show};
+use crate::diagnose::{Cause, Diagnosis, Numbers, scenes_that_show};
 use fastphong::scene::Scene;
 use serde_json::{Value, json};
 use std::time::Duration;
@@ -18,6 +18,7 @@ pub fn json(args: &DiagnoseArgs, scene: &Scene, found: &Diagnosis, time: Duratio
             "ids": ids,
             "mistakes": made.collect::<Value>(),
             "residual": cause.residual,
+            "steps": cause.steps.iter().map(|step| step.left).collect::<Value>(),
             "explained": 1.0 - cause.residual / before,
         })
     };
@@ -31,7 +32,7 @@ pub fn json(args: &DiagnoseArgs, scene: &Scene, found: &Diagnosis, time: Duratio
         json!({ "id": mistake.id, "scenes": scenes })
     });
     json!({
-        "schema": "fastphong.diagnose/1",
+        "schema": "fastphong.diagnose/2",
         "picture": args.picture.display().to_string(),
         "scene": args.input,
         "method": args.method.as_ref().map(ToString::to_string),
@@ -48,12 +49,15 @@ pub fn json(args: &DiagnoseArgs, scene: &Scene, found: &Diagnosis, time: Duratio
         "votes": found.votes.map(|votes| json!({
             "voters": votes.voters, "nearer": votes.nearer, "explained": votes.explained,
         })),
-        "amounts": found.amounts.map(|amounts| json!({
-            "ambient": amounts.ambient, "diffuse": amounts.diffuse, "specular": amounts.specular,
-            "exponent": amounts.exponent, "residual": amounts.residual,
-        })),
+        "numbers": found.numbers.as_ref().map(numbers),
         "tone": found.tone.map(|tone| json!({ "gamma": tone.gamma, "scatter": tone.scatter })),
         "transposed": found.is_transposed,
+        "window": found.window.map(|window| json!({
+            "in_picture": window.in_file, "in_scene": window.in_scene, "size": window.size,
+        })),
+        "rows": found.rows.map(|rows| json!({
+            "longer": rows.longer, "pixel_bytes": rows.bytes, "order": rows.order.name(),
+        })),
         "background": found.background.map(|[yours, scene]| json!({ "yours": yours, "scene": scene })),
         "stated_encoding": found.stated_encoding,
         "premultiplied": found.is_premultiplied,
@@ -68,5 +72,34 @@ pub fn json(args: &DiagnoseArgs, scene: &Scene, found: &Diagnosis, time: Duratio
         })),
         "cannot_show": invisible.collect::<Value>(),
         "seconds": time.as_secs_f64(),
+    })
+}
+
+fn numbers(numbers: &Numbers) -> Value {
+    let lights = numbers.lights.iter().map(|light| {
+        json!({
+            "index": light.index, "local": light.is_local, "stated": light.stated.to_array(),
+            "fitted": light.fitted.to_array(), "off": light.off, "name": light.name,
+        })
+    });
+    let amounts = numbers.amounts.iter().map(|amount| {
+        json!({
+            "term": amount.term, "light": amount.light, "material": amount.material,
+            "channel": amount.channel, "factor": amount.factor, "added": amount.is_added,
+            "diffuse_hue": amount.has_diffuse_hue,
+        })
+    });
+    let ids: Vec<&str> = numbers
+        .mistakes
+        .iter()
+        .map(|mistake| &*mistake.id)
+        .collect();
+    json!({
+        "ids": ids,
+        "lights": lights.collect::<Value>(),
+        "exponent": numbers.exponent,
+        "fog": numbers.fog.map(|fog| json!({ "density": fog.density, "colour": fog.colour })),
+        "amounts": amounts.collect::<Value>(),
+        "residual": numbers.residual,
     })
 }

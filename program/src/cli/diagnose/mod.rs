@@ -8,7 +8,7 @@ use super::output::{self, Output, print_beside};
 use super::progress::Progress;
 use super::scene_flags::{SceneFlags, frame_of, note_scene};
 use super::{CliError, Log, Outcome, files, input_name};
-use crate::diagnose::{DiagnoseError, Question, diagnose};
+use crate::diagnose::{Asked, DiagnoseError, Question, answer, diagnose, find_window};
 use fastphong::frame::Frame;
 use fastphong::glam::DVec3;
 use fastphong::picture::image_file::FilePicture;
@@ -22,7 +22,7 @@ use fastphong::shading::Variant;
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Find the mistake that makes your picture of a scene wrong
+/// Find the mistakes that make your picture of a scene wrong
 #[derive(clap::Args, Debug)]
 #[command(after_help = AFTER)]
 pub struct DiagnoseArgs {
@@ -36,8 +36,8 @@ pub struct DiagnoseArgs {
     /// `fastphong list methods --all` [default: phong]
     #[arg(long = "as", value_name = "METHOD", value_parser = method)]
     method: Option<Variant>,
-    /// Write three pictures side by side: yours, the reference, and the reference with your
-    /// mistake; `-` is standard output
+    /// Write pictures side by side: yours, the reference, the reference with your mistakes, and
+    /// what each correction changes; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Print everything as JSON, including the error that each mistake would leave
@@ -49,6 +49,10 @@ pub struct DiagnoseArgs {
 
 const AFTER: &str = "Exit codes: 0 the picture is right, 1 it is not, 2 wrong usage or input.\n\
     `fastphong list mistakes` lists the mistakes that it looks for.";
+
+/// A scene, its own size, and the pixel of the picture that shows its first pixel, if the picture
+/// has another size.
+type SizedScene = (Opened, [u32; 2], Option<[isize; 2]>);
 
 impl DiagnoseArgs {
     /// Reads the picture, looks for mistakes and prints what it found.
@@ -69,7 +73,7 @@ impl DiagnoseArgs {
         }
         let progress = Progress::watched(log);
         progress.at(0.0, "loading the scene");
-        let (mut opened, own_size) = self.sized(file, &picture)?;
+        let (mut opened, own_size, at) = self.sized(file, &picture)?;
         opened.scene.samples = 1;
         progress.aside(|| note_scene(&opened, log));
         let frame = progress.aside(|| frame_of(&opened, log))?;
@@ -80,6 +84,7 @@ impl DiagnoseArgs {
             scene,
             method: self.method.as_ref(),
             picture: &picture,
+            at,
             light_lengths: &light_lengths(&opened.file),
         };
         let found = diagnose(&question, &mut |share| {
@@ -90,7 +95,13 @@ impl DiagnoseArgs {
             format!("{:#}\n", json::json(self, scene, &found, started.elapsed()))
         } else {
             let own = [own_size, [scene.width, scene.height]];
-            text::text(self, &found, own)
+            let asked = Asked {
+                picture: &self.picture.display().to_string(),
+                scene: &self.input,
+                method: self.method.as_ref().map(ToString::to_string),
+                sizes: own,
+            };
+            text::text(&answer(&asked, &found))
         };
         if let Some(output) = &output {
             progress.at(1.0, "drawing the pictures");
@@ -108,14 +119,11 @@ impl DiagnoseArgs {
         })
     }
 
-    /// Returns the scene, resized to the picture, and the scene's own size. A picture of the
-    /// scene's own size with columns and rows exchanged leaves the scene as it was. Meshes are read
-    /// again only if the size changes, because a fitted camera depends on it.
-    fn sized(
-        &self,
-        mut file: SceneFile,
-        picture: &FilePicture,
-    ) -> Result<(Opened, [u32; 2]), CliError> {
+    /// Returns the scene, the scene's own size, and where the picture shows it. A picture of the
+    /// scene's own size with columns and rows exchanged leaves the scene as it was, and so does a
+    /// picture of another size in which the scene is found. Otherwise the scene is resized to the
+    /// picture. Meshes are read again only then, because a fitted camera depends on the size.
+    fn sized(&self, mut file: SceneFile, picture: &FilePicture) -> Result<SizedScene, CliError> {
         let [width, height] = picture.size();
         let most = Scene::MAX_SIDE as usize;
         if width.max(height) > most {
@@ -127,7 +135,10 @@ impl DiagnoseArgs {
         let [own_width, own_height] = own_size;
         let own = [own_width, own_height].map(|side| side as usize);
         if own == [width, height] || own == [height, width] {
-            return Ok((opened, own_size));
+            return Ok((opened, own_size, None));
+        }
+        if let Some(at) = find_window(&opened.scene, picture) {
+            return Ok((opened, own_size, Some(at)));
         }
         if self.scene.over().sets("image.width") {
             let found = format!("{}: has {width}x{height} pixels", self.picture.display());
@@ -140,7 +151,7 @@ impl DiagnoseArgs {
         image.set("height", Data::Whole(height as i64), Origin::Program);
         file.overlay(size);
         let opened = self.scene.open_file(file, Look::Compared)?;
-        Ok((opened, own_size))
+        Ok((opened, own_size, None))
     }
 
     /// Checks that the method asked for can draw the scene.
