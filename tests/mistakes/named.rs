@@ -1,6 +1,6 @@
 //! `fastphong diagnose` names the mistakes of these pictures.
 //!
-//! A usual run tries one of 120 pictures, and none of `knot-100k`. This command tries all of them
+//! A usual run tries one of 200 pictures, and none of `knot-100k`. This command tries all of them
 //! and prints a line for each picture whose mistake is not named:
 //!
 //! ```sh
@@ -458,7 +458,7 @@ const LEAST: [(&str, f64, f64); 5] = [
 
 #[test]
 fn mistakes_are_named() {
-    let share = std::env::var("FASTPHONG_MISTAKES").map_or(120, |share| {
+    let share = std::env::var("FASTPHONG_MISTAKES").map_or(200, |share| {
         share.parse().expect("one of how many pictures")
     });
     let is_sample = share > 10;
